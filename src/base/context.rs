@@ -1,0 +1,270 @@
+//! How work is run: threads, memory ceiling, progress, cancellation.
+//!
+//! Nothing in this crate touches a process-wide pool. A [`Context`] owns its
+//! threads and is kept warm by whoever made it: a freshly started thread gains
+//! nothing on a job of a millisecond.
+
+use super::{Error, ErrorKind, Result};
+use rayon::prelude::*;
+use std::fmt;
+use std::ops::Range;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Chunks per thread: enough to even out uneven work, few enough to be free.
+const CHUNKS_PER_THREAD: usize = 8;
+/// Elements below which a chunk is not split further.
+const SMALLEST_CHUNK: usize = 2048;
+
+type Progress = Box<dyn Fn(f64) -> bool + Send + Sync>;
+
+/// A flag that any thread may set to stop work in progress.
+#[derive(Debug, Clone, Default)]
+pub struct CancelFlag(Arc<AtomicBool>);
+
+impl CancelFlag {
+    /// Asks for a stop; the running call returns [`ErrorKind::Cancelled`] soon.
+    pub fn cancel(&self) {
+        self.0.store(true, Ordering::Relaxed);
+    }
+
+    /// Takes the request back, so that the context can be used again.
+    pub fn reset(&self) {
+        self.0.store(false, Ordering::Relaxed);
+    }
+
+    /// True once a stop was asked for.
+    pub fn is_cancelled(&self) -> bool {
+        self.0.load(Ordering::Relaxed)
+    }
+}
+
+/// Threads, limits and callbacks for a call. Results never depend on it.
+pub struct Context {
+    pool: Option<rayon::ThreadPool>,
+    ceiling: Option<u64>,
+    progress: Option<Progress>,
+    cancel: CancelFlag,
+    chunk: Option<usize>,
+}
+
+impl Context {
+    /// The calling thread only; no ceiling, no callback.
+    pub fn serial() -> Self {
+        Self {
+            pool: None,
+            ceiling: None,
+            progress: None,
+            cancel: CancelFlag::default(),
+            chunk: None,
+        }
+    }
+
+    /// A context with options.
+    pub fn builder() -> ContextBuilder {
+        ContextBuilder { threads: 1, context: Self::serial() }
+    }
+
+    /// The number of threads that work is spread over.
+    pub fn threads(&self) -> usize {
+        self.pool.as_ref().map_or(1, rayon::ThreadPool::current_num_threads)
+    }
+
+    /// The flag that stops work in this context.
+    pub fn cancel_flag(&self) -> CancelFlag {
+        self.cancel.clone()
+    }
+
+    /// Refuses work that is predicted to need more than the ceiling.
+    ///
+    /// # Errors
+    /// [`ErrorKind::MemoryCeiling`], naming both sizes.
+    pub fn check_memory(&self, bytes: u64) -> Result<()> {
+        match self.ceiling {
+            Some(ceiling) if bytes > ceiling => Err(Error::new(
+                ErrorKind::MemoryCeiling,
+                format!("about {bytes} bytes are needed, the ceiling is {ceiling}"),
+            )),
+            _ => Ok(()),
+        }
+    }
+
+    /// Reports progress in [0, 1] and asks whether to go on.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Cancelled`] if the callback or the flag says stop.
+    pub fn report(&self, done: f64) -> Result<()> {
+        let go_on = self.progress.as_ref().is_none_or(|callback| callback(done));
+        if go_on { self.check_cancelled() } else { Err(cancelled()) }
+    }
+
+    fn check_cancelled(&self) -> Result<()> {
+        if self.cancel.is_cancelled() { Err(cancelled()) } else { Ok(()) }
+    }
+
+    /// The number of elements per chunk for `n` elements.
+    pub(crate) fn chunk_len(&self, n: usize) -> usize {
+        self.chunk.unwrap_or_else(|| {
+            // Serial work is cut too, so that a cancel is noticed soon.
+            n.div_ceil(self.threads() * CHUNKS_PER_THREAD).max(SMALLEST_CHUNK)
+        })
+    }
+
+    /// The ranges that `n` elements are cut into; none is empty.
+    pub(crate) fn chunks(&self, n: usize) -> Vec<Range<usize>> {
+        let len = self.chunk_len(n);
+        (0..n.div_ceil(len)).map(|i| i * len..((i + 1) * len).min(n)).collect()
+    }
+
+    /// Runs `work` on every item, in any order, on this context's threads.
+    ///
+    /// Once a cancel is noticed the remaining items are skipped.
+    pub(crate) fn for_each<I: Send>(
+        &self,
+        items: Vec<I>,
+        work: impl Fn(I) + Sync + Send,
+    ) -> Result<()> {
+        self.map(items, work).map(drop)
+    }
+
+    /// Like [`Self::for_each`], collecting the results in the items' order.
+    pub(crate) fn map<I: Send, R: Send>(
+        &self,
+        items: Vec<I>,
+        work: impl Fn(I) -> R + Sync + Send,
+    ) -> Result<Vec<R>> {
+        let guarded = |item| self.check_cancelled().map(|()| work(item));
+        match &self.pool {
+            Some(pool) if items.len() > 1 => {
+                pool.install(|| items.into_par_iter().map(guarded).collect())
+            }
+            _ => items.into_iter().map(guarded).collect(),
+        }
+    }
+
+    /// Fills a slice of records of `width` values; `work` gets the index of the
+    /// first record of its part and the part.
+    pub(crate) fn fill<T: Send>(
+        &self,
+        out: &mut [T],
+        width: usize,
+        work: impl Fn(usize, &mut [T]) + Sync + Send,
+    ) -> Result<()> {
+        let len = self.chunk_len(out.len() / width.max(1));
+        let parts: Vec<_> = out.chunks_mut(len * width.max(1)).enumerate().collect();
+        self.for_each(parts, |(i, part)| work(i * len, part))
+    }
+}
+
+impl fmt::Debug for Context {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Context")
+            .field("threads", &self.threads())
+            .field("memory_ceiling", &self.ceiling)
+            .finish_non_exhaustive()
+    }
+}
+
+fn cancelled() -> Error {
+    Error::new(ErrorKind::Cancelled, "cancelled")
+}
+
+/// Options of a [`Context`].
+#[derive(Debug)]
+pub struct ContextBuilder {
+    threads: usize,
+    context: Context,
+}
+
+impl ContextBuilder {
+    /// Threads to use: 1 is the calling thread only, 0 all cores.
+    #[must_use]
+    pub fn threads(mut self, n: usize) -> Self {
+        self.threads = n;
+        self
+    }
+
+    /// Bytes that a call may need in all; checked before anything is allocated.
+    #[must_use]
+    pub fn memory_ceiling(mut self, bytes: u64) -> Self {
+        self.context.ceiling = Some(bytes);
+        self
+    }
+
+    /// A callback that gets the part done, in [0, 1], and returns false to stop.
+    /// It may be called from any of the context's threads.
+    #[must_use]
+    pub fn progress(mut self, callback: impl Fn(f64) -> bool + Send + Sync + 'static) -> Self {
+        self.context.progress = Some(Box::new(callback));
+        self
+    }
+
+    /// Elements per chunk, for tests that spread small meshes over threads.
+    #[doc(hidden)]
+    #[must_use]
+    pub fn chunk(mut self, elements: usize) -> Self {
+        self.context.chunk = Some(elements.max(1));
+        self
+    }
+
+    /// Starts the threads.
+    ///
+    /// # Errors
+    /// [`ErrorKind::OutOfResources`] if the system refuses them, or if more
+    /// than 1024 are asked for.
+    pub fn build(mut self) -> Result<Context> {
+        let available = std::thread::available_parallelism().map_or(1, usize::from);
+        let n = if self.threads == 0 { available } else { self.threads };
+        if n > 1024 {
+            return Err(Error::new(
+                ErrorKind::OutOfResources,
+                format!("{n} threads: the limit is 1024"),
+            ));
+        }
+        if n > 1 {
+            let pool = rayon::ThreadPoolBuilder::new()
+                .num_threads(n)
+                .thread_name(|i| format!("carvel-{i}"))
+                .build()
+                .map_err(|e| Error::new(ErrorKind::OutOfResources, e.to_string()))?;
+            self.context.pool = Some(pool);
+        }
+        Ok(self.context)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_cancelled_context_stops_and_recovers() {
+        let context = Context::builder().threads(2).chunk(1).build().unwrap();
+        context.cancel_flag().cancel();
+        let err = context.for_each(vec![1, 2, 3], |_| ()).unwrap_err();
+        assert_eq!(err.kind(), ErrorKind::Cancelled);
+        context.cancel_flag().reset();
+        assert!(context.report(0.5).is_ok());
+    }
+
+    #[test]
+    fn chunks_cover_everything_once() {
+        for (threads, n) in [(1, 0), (1, 1), (2, 100_000), (7, 12_345)] {
+            let context = Context::builder().threads(threads).build().unwrap();
+            let mut next = 0;
+            for range in context.chunks(n) {
+                assert_eq!(range.start, next);
+                assert!(!range.is_empty());
+                next = range.end;
+            }
+            assert_eq!(next, n);
+        }
+    }
+
+    #[test]
+    fn the_ceiling_is_checked() {
+        let context = Context::builder().memory_ceiling(10).build().unwrap();
+        assert!(context.check_memory(10).is_ok());
+        assert_eq!(context.check_memory(11).unwrap_err().kind(), ErrorKind::MemoryCeiling);
+    }
+}

@@ -1,0 +1,14 @@
+//! What every layer stands on: errors, exact numbers, scalars, execution.
+
+mod context;
+mod error;
+mod fraction;
+mod scalar;
+
+pub use context::{CancelFlag, Context, ContextBuilder};
+pub use error::{Element, Error, ErrorKind, Result};
+pub use fraction::Fraction;
+pub use scalar::{Scalar, Weight};
+
+/// The index that stands for "none": no twin, no source, no vertex.
+pub const NONE: u32 = u32::MAX;

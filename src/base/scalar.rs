@@ -1,0 +1,101 @@
+//! Number types: what coordinates are stored in, what weights are computed in.
+
+use super::Fraction;
+use std::fmt::Debug;
+use std::ops::{Add, Mul, Sub};
+
+/// A number in which a scheme's weights can be computed.
+///
+/// `f64` in production; tests use big rationals, which is why a weight is made
+/// of the four operations below and nothing else. Cosines come from `libm`, so
+/// that they are the same on every platform.
+pub trait Weight:
+    Clone + Debug + PartialEq + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self>
+{
+    /// The weight `num / den`.
+    fn ratio(num: i64, den: i64) -> Self;
+
+    /// cos(2π·j/n). Exact types support the rational cases only (n = 1, 2, 3, 4, 6).
+    fn cos_turn(j: usize, n: usize) -> Self;
+
+    /// The weight of an exact parameter.
+    fn from_fraction(f: Fraction) -> Self {
+        Self::ratio(f.numerator(), f.denominator())
+    }
+}
+
+impl Weight for f64 {
+    fn ratio(num: i64, den: i64) -> Self {
+        num as f64 / den as f64
+    }
+
+    fn cos_turn(j: usize, n: usize) -> Self {
+        // The multiples of a right angle and of 60 degrees are exact, as they
+        // are in rational arithmetic.
+        let j = j % n;
+        match (12 * j).checked_rem(n) {
+            Some(0) if (12 * j / n).is_multiple_of(2) || (12 * j / n).is_multiple_of(3) => {
+                [1.0, 0.0, 0.5, 0.0, -0.5, 0.0, -1.0, 0.0, -0.5, 0.0, 0.5, 0.0][12 * j / n]
+            }
+            _ => libm::cos(std::f64::consts::TAU * j as f64 / n as f64),
+        }
+    }
+}
+
+/// A number in which coordinates are stored: `f32` or `f64`.
+pub trait Scalar:
+    Copy
+    + Default
+    + Debug
+    + PartialEq
+    + Send
+    + Sync
+    + 'static
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+{
+    /// Size in bytes.
+    const BYTES: u64;
+
+    /// The nearest value; overflows to infinity.
+    fn from_f64(value: f64) -> Self;
+
+    /// The same value as a double.
+    fn to_f64(self) -> f64;
+
+    /// True unless NaN or infinite.
+    fn is_finite(self) -> bool;
+}
+
+impl Scalar for f32 {
+    const BYTES: u64 = 4;
+
+    fn from_f64(value: f64) -> Self {
+        value as f32
+    }
+
+    fn to_f64(self) -> f64 {
+        f64::from(self)
+    }
+
+    fn is_finite(self) -> bool {
+        self.is_finite()
+    }
+}
+
+impl Scalar for f64 {
+    const BYTES: u64 = 8;
+
+    fn from_f64(value: f64) -> Self {
+        value
+    }
+
+    fn to_f64(self) -> f64 {
+        self
+    }
+
+    fn is_finite(self) -> bool {
+        self.is_finite()
+    }
+}

@@ -1,0 +1,3 @@
+//! The `carvel` command.
+
+fn main() {}
