@@ -1,0 +1,201 @@
+//! All levels of a refinement, kept: topology once, values as often as wanted.
+
+use super::columns::{Column, Place};
+use super::predict::Prediction;
+use super::step::Step;
+use super::values::{check, check_overflow, lanes};
+use crate::base::{Context, Error, ErrorKind, Result, Scalar};
+use crate::mesh::Mesh;
+use crate::refine::adjacency::Recycled;
+use crate::refine::{CornerSplit, FaceOrigin, VertexOrigin};
+use crate::scheme::{RowSink, Scheme, SchemeRows};
+
+/// The topology of levels 0 to n of a mesh under a scheme.
+///
+/// # Example
+/// ```
+/// use carvel::{Context, Hierarchy, Mesh, Scheme};
+/// let cube = Mesh::from_polygons(8, &[4; 6], &[
+///     0, 1, 3, 2, 4, 6, 7, 5, 0, 4, 5, 1, 2, 3, 7, 6, 0, 2, 6, 4, 1, 5, 7, 3,
+/// ])?;
+/// let hierarchy = Hierarchy::new(&Context::serial(), cube, Scheme::doo_sabin(), 2)?;
+/// assert_eq!(hierarchy.mesh(1).faces(), 26);
+/// assert_eq!(hierarchy.mesh(2).faces(), 98);
+/// # Ok::<(), carvel::Error>(())
+/// ```
+#[derive(Debug, Clone)]
+pub struct Hierarchy {
+    scheme: Scheme,
+    levels: Vec<Mesh>,
+}
+
+impl Hierarchy {
+    /// Builds levels 1 to `levels`, all with adjacency.
+    ///
+    /// # Errors
+    /// [`ErrorKind::TooLarge`] or [`ErrorKind::MemoryCeiling`] before anything
+    /// is built; [`ErrorKind::Cancelled`].
+    pub fn new(context: &Context, mesh: Mesh, scheme: Scheme, levels: u32) -> Result<Self> {
+        let plan = Prediction::new(&mesh, &scheme, levels)?;
+        for counts in plan.levels() {
+            counts.check_index_type()?;
+        }
+        context.check_memory(plan.topology_bytes())?;
+        let mut hierarchy = Self { scheme, levels: vec![mesh] };
+        for level in 0..levels {
+            let split = hierarchy.split(context, level)?;
+            let anchors = hierarchy.scheme.anchors();
+            let child = split.mesh(context, anchors, &mut Recycled::default())?;
+            hierarchy.levels.push(child);
+            context.report(f64::from(level + 1) / f64::from(levels))?;
+        }
+        Ok(hierarchy)
+    }
+
+    /// The number of the last level.
+    pub fn last_level(&self) -> u32 {
+        self.levels.len() as u32 - 1
+    }
+
+    /// The scheme.
+    pub fn scheme(&self) -> &Scheme {
+        &self.scheme
+    }
+
+    /// The mesh of a level; 0 is the control mesh.
+    ///
+    /// # Panics
+    /// If `level` is beyond [`Hierarchy::last_level`].
+    pub fn mesh(&self, level: u32) -> &Mesh {
+        &self.levels[level as usize]
+    }
+
+    /// Refines values on the control vertices to a level: `width` values per
+    /// vertex in, `width` per vertex of that level out.
+    ///
+    /// # Errors
+    /// [`ErrorKind::LengthMismatch`] for slices of the wrong length,
+    /// [`ErrorKind::ParameterOutOfRange`] for a level that was not built,
+    /// [`ErrorKind::NotFinite`], [`ErrorKind::Overflow`],
+    /// [`ErrorKind::Cancelled`].
+    pub fn refine<T: Scalar>(
+        &self,
+        context: &Context,
+        level: u32,
+        values: &[T],
+        width: usize,
+        out: &mut [T],
+    ) -> Result<()> {
+        self.check_level(level)?;
+        check(context, "values", values, width, self.levels[0].vertices())?;
+        check_length(out.len(), self.mesh(level).vertices() * width)?;
+        if level == 0 {
+            out.copy_from_slice(values);
+            return Ok(());
+        }
+        for (first, n) in lanes(width) {
+            let place = Place { attribute: 0, width, first };
+            let mut column = Column::new(n);
+            for step in 0..level {
+                let split = self.split(context, step)?;
+                let rule = Step::new(&self.scheme, &split);
+                if step + 1 < level {
+                    column.step(context, &rule, step as usize, place, values)?;
+                } else {
+                    column.finish(context, &rule, step as usize, place, values, out)?;
+                }
+            }
+        }
+        check_overflow(context, out, level as usize)
+    }
+
+    /// The parent elements, at `level − 1`, of the vertices of a level.
+    ///
+    /// # Errors
+    /// [`ErrorKind::ParameterOutOfRange`] for level 0 or one that was not built.
+    pub fn vertex_origins(&self, level: u32) -> Result<Vec<VertexOrigin>> {
+        let split = self.split_to(level)?;
+        Ok((0..split.counts.vertices as u32).map(|v| split.vertex_origin(v)).collect())
+    }
+
+    /// The parent elements, at `level − 1`, of the faces of a level.
+    ///
+    /// # Errors
+    /// [`ErrorKind::ParameterOutOfRange`] for level 0 or one that was not built.
+    pub fn face_origins(&self, level: u32) -> Result<Vec<FaceOrigin>> {
+        Ok(self.split_to(level)?.face_origins().collect())
+    }
+
+    /// The rows of the step from `level − 1` to `level`, stage by stage: the
+    /// split's rows on the parent's vertices, then each pass's on the children.
+    /// `row` gets the stage, the vertex, and the row in `W`'s arithmetic.
+    ///
+    /// # Errors
+    /// [`ErrorKind::ParameterOutOfRange`] for level 0 or one that was not built.
+    pub fn each_row<W: crate::base::Weight>(
+        &self,
+        level: u32,
+        mut row: impl FnMut(usize, u32, &[(u32, W)]),
+    ) -> Result<()> {
+        let split = self.split_to(level)?;
+        let mut rows = SchemeRows::<W>::new(&self.scheme, &split);
+        let mut entries = Entries(Vec::new());
+        for stage in 0..=self.scheme.passes().len() {
+            for vertex in 0..split.counts.vertices as u32 {
+                entries.0.clear();
+                match stage.checked_sub(1) {
+                    None => rows.split_row(vertex, &mut entries),
+                    Some(pass) => rows.pass_row(pass, vertex, &mut entries),
+                }
+                row(stage, vertex, &entries.0);
+            }
+        }
+        Ok(())
+    }
+
+    fn check_level(&self, level: u32) -> Result<()> {
+        if level <= self.last_level() {
+            return Ok(());
+        }
+        Err(Error::new(
+            ErrorKind::ParameterOutOfRange,
+            format!("level {level} was not built, the last is {}", self.last_level()),
+        ))
+    }
+
+    /// The split that leads to a level.
+    fn split_to(&self, level: u32) -> Result<CornerSplit<'_>> {
+        self.check_level(level)?;
+        let before = level.checked_sub(1).ok_or_else(|| {
+            Error::new(
+                ErrorKind::ParameterOutOfRange,
+                "level 0 is the control mesh, it has no parent",
+            )
+        })?;
+        self.split(&Context::serial(), before)
+    }
+
+    fn split(&self, context: &Context, level: u32) -> Result<CornerSplit<'_>> {
+        let mesh = self.mesh(level);
+        CornerSplit::new(context, mesh, self.scheme.anchor(mesh))
+    }
+}
+
+/// A row as a list.
+struct Entries<W>(Vec<(u32, W)>);
+
+impl<W> RowSink<W> for Entries<W> {
+    fn add(&mut self, vertex: u32, weight: W) {
+        self.0.push((vertex, weight));
+    }
+}
+
+fn check_length(len: usize, expected: usize) -> Result<()> {
+    if len == expected {
+        return Ok(());
+    }
+    Err(Error::new(
+        ErrorKind::LengthMismatch,
+        format!("the output has {len} entries, {expected} are needed"),
+    ))
+}

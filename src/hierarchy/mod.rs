@@ -1,0 +1,17 @@
+//! From a control mesh, a scheme and data to any level.
+//!
+//! This is where positions enter: they are checked for NaN and infinities on
+//! the way in and for overflow on the way out.
+
+mod columns;
+mod kernel;
+mod levels;
+mod memory;
+mod predict;
+mod refiner;
+mod step;
+mod values;
+
+pub use levels::Hierarchy;
+pub use predict::Prediction;
+pub use refiner::{Attribute, Output, Refined, Refiner, Task};

@@ -1,0 +1,393 @@
+//! One-shot refinement: the faces and values of level n, and nothing else.
+//!
+//! A [`Refiner`] keeps its scratch memory, so that refining the same mesh again
+//! touches no fresh page. For several levels at once, or for new positions on
+//! the same topology, see [`super::Hierarchy`].
+
+use super::columns::{Column, Place};
+use super::memory::{resize, zeroed};
+use super::predict::Prediction;
+use super::step::Step;
+use super::values::{check, check_overflow, lanes};
+use crate::base::{Context, Error, ErrorKind, Result, Scalar};
+use crate::mesh::Mesh;
+use crate::refine::CornerSplit;
+use crate::refine::adjacency::Recycled;
+use crate::scheme::Scheme;
+
+/// Values on vertices, any number of them per vertex.
+#[derive(Debug, Clone, Copy)]
+pub struct Attribute<'a, T> {
+    /// One record per vertex, one after the other.
+    pub values: &'a [T],
+    /// Values per record, at least 1.
+    pub width: usize,
+}
+
+/// What to refine, how, and how far.
+#[derive(Debug, Clone, Copy)]
+pub struct Task<'a, T> {
+    /// The control mesh.
+    pub mesh: &'a Mesh,
+    /// The scheme.
+    pub scheme: &'a Scheme,
+    /// The number of steps; 0 copies the input.
+    pub levels: u32,
+    /// xyz of every vertex, 3 values each.
+    pub positions: &'a [T],
+    /// Further values, refined by the same rows.
+    pub attributes: &'a [Attribute<'a, T>],
+    /// Also report the control face that each refined face descends from.
+    pub face_sources: bool,
+}
+
+/// Where the result goes; sizes by [`Prediction::last`].
+#[derive(Debug)]
+pub struct Output<'a, T> {
+    /// The size of every face, if wanted. All faces but the first
+    /// `irregular_faces` are quads (from level 1 on).
+    pub face_sizes: Option<&'a mut [u32]>,
+    /// The concatenated vertices of all faces.
+    pub face_vertices: &'a mut [u32],
+    /// The control face (in the mesh's order) that each face descends from.
+    pub face_sources: Option<&'a mut [u32]>,
+    /// xyz of every vertex.
+    pub positions: &'a mut [T],
+    /// One array per attribute of the task.
+    pub attributes: Vec<&'a mut [T]>,
+}
+
+/// A refined mesh as arrays.
+#[derive(Debug, Clone, PartialEq)]
+#[non_exhaustive]
+pub struct Refined<T> {
+    /// The size of every face.
+    pub face_sizes: Vec<u32>,
+    /// The concatenated vertices of all faces.
+    pub face_vertices: Vec<u32>,
+    /// The control face (in the mesh's order) that each face descends from;
+    /// empty unless asked for.
+    pub face_sources: Vec<u32>,
+    /// xyz of every vertex.
+    pub positions: Vec<T>,
+    /// One array per attribute of the task.
+    pub attributes: Vec<Vec<T>>,
+    /// A further step must treat the mesh as anchored.
+    pub anchored: bool,
+}
+
+/// Refines meshes, keeping scratch memory from call to call.
+#[derive(Debug)]
+pub struct Refiner<T> {
+    levels: Vec<Recycled>,
+    columns: Vec<Column<T>>,
+    face_sources: Vec<Vec<u32>>,
+}
+
+impl<T: Scalar> Default for Refiner<T> {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+impl<T: Scalar> Refiner<T> {
+    /// A refiner without memory yet.
+    pub fn new() -> Self {
+        Self { levels: Vec::new(), columns: Vec::new(), face_sources: Vec::new() }
+    }
+
+    /// Bytes of scratch memory held.
+    pub fn bytes(&self) -> u64 {
+        let columns: u64 = self.columns.iter().map(Column::bytes).sum();
+        let sources: usize = self.face_sources.iter().map(Vec::capacity).sum();
+        self.levels.iter().map(Recycled::bytes).sum::<u64>() + columns + 4 * sources as u64
+    }
+
+    /// Refines into arrays of its own.
+    ///
+    /// # Errors
+    /// As [`Refiner::refine_into`].
+    pub fn refine(&mut self, context: &Context, task: &Task<T>) -> Result<Refined<T>> {
+        let plan = task.plan(context, true)?;
+        let last = plan.last();
+        let mut refined = Refined {
+            face_sizes: zeroed(0, last.faces as usize)?,
+            face_vertices: zeroed(0, last.corners as usize)?,
+            face_sources: zeroed(0, if task.face_sources { last.faces as usize } else { 0 })?,
+            positions: zeroed(T::default(), last.vertices as usize * 3)?,
+            attributes: Vec::new(),
+            anchored: task.anchored(),
+        };
+        for attribute in task.attributes {
+            let len = last.vertices as usize * attribute.width;
+            refined.attributes.push(zeroed(T::default(), len)?);
+        }
+        let output = Output {
+            face_sizes: Some(&mut refined.face_sizes),
+            face_vertices: &mut refined.face_vertices,
+            face_sources: task.face_sources.then_some(&mut refined.face_sources[..]),
+            positions: &mut refined.positions,
+            attributes: refined.attributes.iter_mut().map(Vec::as_mut_slice).collect(),
+        };
+        self.run(context, task, &plan, output)?;
+        Ok(refined)
+    }
+
+    /// Refines into the caller's arrays. On an error their content is undefined.
+    ///
+    /// The result does not depend on threads, and n steps at once give the same
+    /// bytes as one step n times.
+    ///
+    /// # Errors
+    /// [`ErrorKind::LengthMismatch`] for a slice of another length than
+    /// [`Prediction::last`] says, [`ErrorKind::NotFinite`] and
+    /// [`ErrorKind::Overflow`] for values, [`ErrorKind::TooLarge`],
+    /// [`ErrorKind::MemoryCeiling`] and [`ErrorKind::OutOfResources`] for sizes,
+    /// all checked before work starts but for overflow, and
+    /// [`ErrorKind::Cancelled`].
+    pub fn refine_into(
+        &mut self,
+        context: &Context,
+        task: &Task<T>,
+        output: Output<T>,
+    ) -> Result<()> {
+        let plan = task.plan(context, false)?;
+        self.run(context, task, &plan, output)
+    }
+
+    fn run(
+        &mut self,
+        context: &Context,
+        task: &Task<T>,
+        plan: &Prediction,
+        output: Output<T>,
+    ) -> Result<()> {
+        output.check(task, plan)?;
+        let largest = task.check_values(context)?;
+        if task.levels == 0 {
+            return copy(task, output);
+        }
+        // Where no value can come near the limits, nothing is checked again.
+        let bound = largest * task.scheme.growth().powi(task.levels.min(1 << 20) as i32);
+        let watch = !T::from_f64(bound).is_finite();
+        self.levels.resize_with(task.levels as usize, Recycled::default);
+        Run { context, task, plan, watch }.levels(self, output)
+    }
+}
+
+impl<T: Scalar> Task<'_, T> {
+    /// Predicts the sizes and checks them against the limits.
+    fn plan(&self, context: &Context, with_output: bool) -> Result<Prediction> {
+        let plan = Prediction::new(self.mesh, self.scheme, self.levels)?;
+        for counts in plan.levels() {
+            counts.check_index_type()?;
+        }
+        let width = 3 + self.attributes.iter().map(|a| a.width as u64).sum::<u64>();
+        let output = if with_output { plan.output_bytes(width, T::BYTES) } else { 0 };
+        let scratch = match self.levels {
+            0 => 0,
+            _ => plan.scratch_bytes(width, T::BYTES),
+        };
+        context.check_memory(scratch + output)?;
+        Ok(plan)
+    }
+
+    /// Checks all inputs; returns the largest magnitude.
+    fn check_values(&self, context: &Context) -> Result<f64> {
+        let vertices = self.mesh.vertices();
+        let mut largest = check(context, "positions", self.positions, 3, vertices)?;
+        for (i, attribute) in self.attributes.iter().enumerate() {
+            let name = format!("attribute {i}");
+            let values = attribute.values;
+            largest = largest.max(check(context, &name, values, attribute.width, vertices)?);
+        }
+        Ok(largest)
+    }
+
+    /// True if the result is anchored.
+    fn anchored(&self) -> bool {
+        if self.levels == 0 { self.mesh.is_anchored() } else { self.scheme.anchors() }
+    }
+}
+
+impl<T: Scalar> Output<'_, T> {
+    fn check(&self, task: &Task<T>, plan: &Prediction) -> Result<()> {
+        let last = plan.last();
+        let length = |what: &str, len: usize, expected: u64| {
+            if len as u64 == expected {
+                return Ok(());
+            }
+            Err(Error::new(
+                ErrorKind::LengthMismatch,
+                format!("{what}: the output has {len} entries, {expected} are needed"),
+            ))
+        };
+        if let Some(sizes) = &self.face_sizes {
+            length("face sizes", sizes.len(), last.faces)?;
+        }
+        if let Some(sources) = &self.face_sources {
+            length("face sources", sources.len(), last.faces)?;
+        }
+        length("face vertices", self.face_vertices.len(), last.corners)?;
+        length("positions", self.positions.len(), 3 * last.vertices)?;
+        length("attributes", self.attributes.len(), task.attributes.len() as u64)?;
+        for (out, attribute) in self.attributes.iter().zip(task.attributes) {
+            length("attribute", out.len(), last.vertices * attribute.width as u64)?;
+        }
+        Ok(())
+    }
+}
+
+/// Level 0: the control mesh itself.
+fn copy<T: Scalar>(task: &Task<T>, output: Output<T>) -> Result<()> {
+    let mesh = task.mesh;
+    if let Some(sizes) = output.face_sizes {
+        for (slot, size) in sizes.iter_mut().zip(mesh.face_sizes()) {
+            *slot = size;
+        }
+    }
+    if let Some(sources) = output.face_sources {
+        for (slot, face) in sources.iter_mut().zip(0..) {
+            *slot = face;
+        }
+    }
+    output.face_vertices.copy_from_slice(mesh.corner_vertices());
+    output.positions.copy_from_slice(task.positions);
+    for (out, attribute) in output.attributes.into_iter().zip(task.attributes) {
+        out.copy_from_slice(attribute.values);
+    }
+    Ok(())
+}
+
+/// A call in progress.
+struct Run<'r, T> {
+    context: &'r Context,
+    task: &'r Task<'r, T>,
+    plan: &'r Prediction,
+    /// Values may overflow: look at every level.
+    watch: bool,
+}
+
+impl<T: Scalar> Run<'_, T> {
+    fn levels(&self, refiner: &mut Refiner<T>, output: Output<T>) -> Result<()> {
+        let places = self.places(&mut refiner.columns);
+        let mut owned: Option<Mesh> = None;
+        let last = self.task.levels as usize - 1;
+        for level in 0..last {
+            let parent = owned.as_ref().unwrap_or(self.task.mesh);
+            let split = CornerSplit::new(self.context, parent, self.task.scheme.anchor(parent))?;
+            let step = Step::new(self.task.scheme, &split);
+            for (column, &place) in refiner.columns.iter_mut().zip(&places) {
+                let values = column.step(self.context, &step, level, place, self.input(place))?;
+                self.check(values, level + 1)?;
+            }
+            self.inherit(&mut refiner.face_sources, &split, level, None)?;
+            let memory = &mut refiner.levels[level];
+            let child = split.mesh(self.context, self.task.scheme.anchors(), memory)?;
+            if let Some(mesh) = owned.replace(child) {
+                refiner.levels[level - 1].absorb(mesh);
+            }
+            self.progress(level + 1)?;
+        }
+        let parent = owned.as_ref().unwrap_or(self.task.mesh);
+        self.last_level(refiner, parent, &places, output)?;
+        if let Some(mesh) = owned {
+            refiner.levels[last - 1].absorb(mesh);
+        }
+        self.progress(last + 1)
+    }
+
+    /// Faces and values only, straight into the output.
+    fn last_level(
+        &self,
+        refiner: &mut Refiner<T>,
+        parent: &Mesh,
+        places: &[Place],
+        mut output: Output<T>,
+    ) -> Result<()> {
+        let level = self.task.levels as usize - 1;
+        let split = CornerSplit::new(self.context, parent, self.task.scheme.anchor(parent))?;
+        if let Some(sizes) = &mut output.face_sizes {
+            split.write_sizes(sizes);
+        }
+        split.write_faces(self.context, output.face_vertices)?;
+        self.inherit(&mut refiner.face_sources, &split, level, output.face_sources.take())?;
+        let step = Step::new(self.task.scheme, &split);
+        for (column, &place) in refiner.columns.iter_mut().zip(places) {
+            let out = match place.attribute.checked_sub(1) {
+                None => &mut *output.positions,
+                Some(i) => &mut *output.attributes[i],
+            };
+            column.finish(self.context, &step, level, place, self.input(place), out)?;
+            self.check(out, level + 1)?;
+        }
+        Ok(())
+    }
+
+    /// The columns of all values; those of the last call are used again.
+    fn places(&self, columns: &mut Vec<Column<T>>) -> Vec<Place> {
+        let widths = std::iter::once(3).chain(self.task.attributes.iter().map(|a| a.width));
+        let mut places = Vec::new();
+        for (attribute, width) in widths.enumerate() {
+            for (first, lanes) in lanes(width) {
+                match columns.get(places.len()) {
+                    Some(column) if column.lanes() == lanes => {}
+                    _ => {
+                        columns.truncate(places.len());
+                        columns.push(Column::new(lanes));
+                    }
+                }
+                places.push(Place { attribute, width, first });
+            }
+        }
+        columns.truncate(places.len());
+        places
+    }
+
+    fn input(&self, place: Place) -> &[T] {
+        match place.attribute.checked_sub(1) {
+            None => self.task.positions,
+            Some(i) => self.task.attributes[i].values,
+        }
+    }
+
+    fn check(&self, values: &[T], level: usize) -> Result<()> {
+        if self.watch { check_overflow(self.context, values, level) } else { Ok(()) }
+    }
+
+    /// Hands the control faces down to the children of a level.
+    fn inherit(
+        &self,
+        kept: &mut Vec<Vec<u32>>,
+        split: &CornerSplit,
+        level: usize,
+        out: Option<&mut [u32]>,
+    ) -> Result<()> {
+        if !self.task.face_sources {
+            return Ok(());
+        }
+        kept.resize_with(kept.len().max(level + 2), Vec::new);
+        let (from, to) = kept.split_at_mut(level + 1);
+        let to = match out {
+            Some(out) => out,
+            None => {
+                resize(&mut to[0], 0, split.counts.faces as usize)?;
+                &mut to[0]
+            }
+        };
+        for (slot, origin) in to.iter_mut().zip(split.face_origins()) {
+            let face = origin.representative(split.parent());
+            *slot = if level == 0 { face } else { from[level][face as usize] };
+        }
+        Ok(())
+    }
+
+    /// Reports the part of all vertices that is done.
+    fn progress(&self, level: usize) -> Result<()> {
+        let vertices = |levels: &[crate::refine::Counts]| -> f64 {
+            levels.iter().map(|c| c.vertices as f64).sum()
+        };
+        let all = self.plan.levels();
+        self.context.report(vertices(&all[1..=level]) / vertices(&all[1..]).max(1.0))
+    }
+}

@@ -1,0 +1,289 @@
+//! From a polygon soup to a [`Mesh`]: checks, order, twins, fans.
+
+use super::pairing::{BadEdge, Pairing, pair};
+use super::{Defect, Defects, Layout, Mesh, anchor, cut};
+use crate::base::{Context, Element, Error, ErrorKind, NONE, Result};
+
+/// What to do with edges and vertices that are not manifold.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[non_exhaustive]
+pub enum NonManifold {
+    /// Refuse the mesh.
+    #[default]
+    Error,
+    /// Make every face side at such an edge a boundary edge, and give every
+    /// extra fan of a vertex its own copy of it.
+    Cut,
+}
+
+/// How a mesh is built.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct BuildOptions<'a> {
+    /// What to do with edges and vertices that are not manifold.
+    pub non_manifold: NonManifold,
+    /// The mesh is the result of an earlier dual step, with the anchor row laid
+    /// along its boundary (SPEC of the dual boundaries in `docs/schemes.md`).
+    pub anchored: bool,
+    /// Boundary vertices to interpolate although they have several faces.
+    pub corner_tags: &'a [u32],
+}
+
+/// A mesh and where its vertices came from.
+#[derive(Debug, Clone)]
+pub struct Built {
+    /// The mesh.
+    pub mesh: Mesh,
+    /// For each vertex the caller's vertex, if policy `cut` copied any:
+    /// the first entries are the vertices themselves, the copies follow.
+    pub vertex_source: Option<Vec<u32>>,
+}
+
+/// Builds a mesh from faces given as sizes and concatenated vertex indices.
+///
+/// Costs O(H) for H corners, plus a sort of the edges of each vertex.
+///
+/// # Errors
+/// [`Defects::Soup`] with every defect found; [`Defects::Call`] for sizes that
+/// do not match or do not fit 32 bits, unusable tags, or a cancel.
+pub fn build(
+    context: &Context,
+    vertices: usize,
+    sizes: &[u32],
+    indices: &[u32],
+    options: &BuildOptions,
+) -> Result<Built, Defects> {
+    let offsets = check_sizes(vertices, sizes, indices)?;
+    let mut defects = face_defects(context, vertices, &offsets, indices)?;
+    let soup = Soup::arrange(sizes, &offsets, indices, &defects);
+    let Pairing { twin, mut bad } =
+        pair(context, vertices, &soup.vert, |c| soup.layout.next(c), |_| true)?;
+    let unusable = !defects.is_empty();
+    let cutting = options.non_manifold == NonManifold::Cut && !unusable;
+    if !cutting {
+        bad.sort_unstable_by_key(|edge| edge.edge);
+        defects.extend(bad.iter().map(|edge| soup.edge_defect(edge)));
+    }
+    let mut mesh = soup.into_mesh(vertices, twin);
+    let split = if unusable { Vec::new() } else { several_fans(context, &mut mesh)? };
+    let mut vertex_source = None;
+    if cutting {
+        vertex_source = cut::separate_fans(&mut mesh, &split);
+    } else {
+        defects.extend(fan_defects(&split, &bad));
+    }
+    if !defects.is_empty() {
+        return Err(Defects::Soup(defects));
+    }
+    mesh.collect_lists();
+    set_tags(&mut mesh, options, vertex_source.as_deref(), vertices)?;
+    Ok(Built { mesh, vertex_source })
+}
+
+/// Checks that everything fits the index type; returns the face offsets.
+fn check_sizes(vertices: usize, sizes: &[u32], indices: &[u32]) -> Result<Vec<u32>> {
+    const LIMIT: u64 = NONE as u64;
+    let corners: u64 = sizes.iter().map(|&size| u64::from(size)).sum();
+    if corners != indices.len() as u64 {
+        return Err(Error::new(
+            ErrorKind::LengthMismatch,
+            format!("the face sizes add up to {corners}, but {} indices are given", indices.len()),
+        ));
+    }
+    if corners >= LIMIT || vertices as u64 >= LIMIT {
+        return Err(Error::new(
+            ErrorKind::TooLarge,
+            format!("{vertices} vertices and {corners} corners do not fit 32-bit indices"),
+        ));
+    }
+    let mut sum = 0;
+    let mut offsets = Vec::with_capacity(sizes.len() + 1);
+    offsets.push(0);
+    offsets.extend(sizes.iter().map(|&size| {
+        sum += size;
+        sum
+    }));
+    Ok(offsets)
+}
+
+/// The defects that a face has by itself, in face order, one per face.
+fn face_defects(
+    context: &Context,
+    vertices: usize,
+    offsets: &[u32],
+    indices: &[u32],
+) -> Result<Vec<Defect>> {
+    let faces = offsets.len() - 1;
+    let found = context.map(context.chunks(faces), |range| {
+        let mut scratch = Vec::new();
+        range
+            .filter_map(|f| {
+                let face = &indices[offsets[f] as usize..offsets[f + 1] as usize];
+                face_defect(f as u64, face, vertices, &mut scratch)
+            })
+            .collect::<Vec<_>>()
+    })?;
+    Ok(found.into_iter().flatten().collect())
+}
+
+fn face_defect(id: u64, face: &[u32], vertices: usize, scratch: &mut Vec<u32>) -> Option<Defect> {
+    if face.len() < 3 {
+        return Some(Defect::FaceTooSmall { face: id, size: face.len() as u32 });
+    }
+    if let Some(&vertex) = face.iter().find(|&&v| v as usize >= vertices) {
+        let (vertex, vertices) = (u64::from(vertex), vertices as u64);
+        return Some(Defect::IndexOutOfRange { face: id, vertex, vertices });
+    }
+    repeated(face, scratch)
+        .map(|vertex| Defect::RepeatedVertex { face: id, vertex: u64::from(vertex) })
+}
+
+/// A vertex that occurs twice in a face.
+fn repeated(face: &[u32], scratch: &mut Vec<u32>) -> Option<u32> {
+    const SMALL: usize = 12;
+    if face.len() <= SMALL {
+        return (1..face.len()).find(|&i| face[..i].contains(&face[i])).map(|i| face[i]);
+    }
+    scratch.clear();
+    scratch.extend_from_slice(face);
+    scratch.sort_unstable();
+    scratch.windows(2).find(|pair| pair[0] == pair[1]).map(|pair| pair[0])
+}
+
+/// Usable faces in the mesh's order.
+struct Soup {
+    layout: Layout,
+    vert: Vec<u32>,
+    /// Input face of each face, unless they are the same.
+    source: Option<Vec<u32>>,
+}
+
+impl Soup {
+    fn arrange(sizes: &[u32], offsets: &[u32], indices: &[u32], defects: &[Defect]) -> Self {
+        let mut usable = vec![true; sizes.len()];
+        for defect in defects {
+            if let Some(Element::Face(face)) = defect.elements().last() {
+                usable[*face as usize] = false;
+            }
+        }
+        let all = || (0..sizes.len()).filter(|&f| usable[f]);
+        let side = if all().all(|f| sizes[f] == 3) { 3 } else { 4 };
+        let irregular = || all().filter(|&f| sizes[f] != side);
+        let regular = || all().filter(|&f| sizes[f] == side);
+        let layout = Layout::new(irregular().map(|f| sizes[f]), side, regular().count() as u32);
+        let ordered = || irregular().chain(regular());
+        let in_place = ordered().enumerate().all(|(new, old)| new == old);
+        if in_place {
+            let vert = indices[..layout.corners() as usize].to_vec();
+            return Self { layout, vert, source: None };
+        }
+        let mut vert = Vec::with_capacity(layout.corners() as usize);
+        for f in ordered() {
+            vert.extend_from_slice(&indices[offsets[f] as usize..offsets[f + 1] as usize]);
+        }
+        Self { layout, vert, source: Some(ordered().map(|f| f as u32).collect()) }
+    }
+
+    /// The defect of a bad edge, in terms of the caller's faces.
+    fn edge_defect(&self, bad: &BadEdge) -> Defect {
+        let face = |&corner: &u32| {
+            let face = self.layout.face_of(corner);
+            u64::from(self.source.as_ref().map_or(face, |source| source[face as usize]))
+        };
+        let edge = (u64::from(bad.edge.0), u64::from(bad.edge.1));
+        let mut faces: Vec<u64> = bad.corners.iter().map(face).collect();
+        faces.sort_unstable();
+        match faces.len() {
+            2 => Defect::InconsistentOrientation { edge, faces },
+            _ => Defect::NonManifoldEdge { edge, faces },
+        }
+    }
+
+    fn into_mesh(self, vertices: usize, twin: Vec<u32>) -> Mesh {
+        Mesh {
+            layout: self.layout,
+            vert: self.vert,
+            twin,
+            start: vec![NONE; vertices],
+            rim: Vec::new(),
+            special: Vec::new(),
+            corner_tags: Vec::new(),
+            anchored: false,
+            face_source: self.source,
+        }
+    }
+}
+
+/// Sets the starts of all fans; returns the vertices with more than one.
+fn several_fans(context: &Context, mesh: &mut Mesh) -> Result<Vec<u32>> {
+    let mut valence = vec![0_u32; mesh.start.len()];
+    for (corner, (&v, &twin)) in (0..).zip(mesh.vert.iter().zip(&mesh.twin)) {
+        let v = v as usize;
+        valence[v] += 1;
+        if mesh.start[v] == NONE || twin == NONE {
+            mesh.start[v] = corner;
+        }
+    }
+    let mesh = &*mesh;
+    let found = context.map(context.chunks(valence.len()), |range| {
+        let reached = |v: usize| mesh.fan(v as u32).count() as u32;
+        let split = range.filter(|&v| reached(v) != valence[v]);
+        split.map(|v| v as u32).collect::<Vec<_>>()
+    })?;
+    Ok(found.into_iter().flatten().collect())
+}
+
+/// Vertices with several fans; the ends of bad edges are reported by the edge.
+fn fan_defects<'a>(split: &'a [u32], bad: &[BadEdge]) -> impl Iterator<Item = Defect> + 'a {
+    let mut ends: Vec<u32> = bad.iter().flat_map(|e| [e.edge.0, e.edge.1]).collect();
+    ends.sort_unstable();
+    split
+        .iter()
+        .filter(move |v| ends.binary_search(v).is_err())
+        .map(|&v| Defect::NonManifoldVertex { vertex: u64::from(v) })
+}
+
+impl Mesh {
+    /// Fills the lists of boundary corners and special vertices.
+    fn collect_lists(&mut self) {
+        let corners = 0..self.vert.len() as u32;
+        self.rim = corners.filter(|&c| self.twin[c as usize] == NONE).collect();
+        let vertices = 0..self.start.len() as u32;
+        self.special = vertices.filter(|&v| !self.is_regular(v)).collect();
+    }
+
+    /// True for an interior vertex of valence 4.
+    pub(super) fn is_regular(&self, vertex: u32) -> bool {
+        let start = self.start[vertex as usize];
+        start != NONE && self.twin[start as usize] != NONE && self.fan(vertex).take(5).count() == 4
+    }
+}
+
+/// Checks and stores the tags and the anchored flag.
+fn set_tags(
+    mesh: &mut Mesh,
+    options: &BuildOptions,
+    source: Option<&[u32]>,
+    vertices: usize,
+) -> Result<()> {
+    let invalid = |v: u32, why: &str| {
+        Err(Error::new(ErrorKind::InvalidTag, format!("the corner tag of vertex {v} {why}"))
+            .with_elements([Element::Vertex(u64::from(v))]))
+    };
+    if let Some(&v) = options.corner_tags.iter().find(|&&v| v as usize >= vertices) {
+        return invalid(v, "names no vertex of the mesh");
+    }
+    if let (true, Some(&v)) = (options.anchored, options.corner_tags.first()) {
+        return invalid(v, "cannot be kept: an anchored mesh carries no tags");
+    }
+    let mut tags = options.corner_tags.to_vec();
+    let copies = source.unwrap_or_default().iter().enumerate().skip(vertices);
+    tags.extend(copies.filter(|(_, v)| options.corner_tags.contains(v)).map(|(i, _)| i as u32));
+    tags.sort_unstable();
+    tags.dedup();
+    if let Some(&v) = tags.iter().find(|&&v| !mesh.on_rim(v)) {
+        return invalid(v, "needs a boundary vertex");
+    }
+    mesh.corner_tags = tags;
+    mesh.anchored = options.anchored;
+    if mesh.anchored { anchor::check(mesh) } else { Ok(()) }
+}

@@ -1,0 +1,154 @@
+//! What can be wrong with a polygon soup, one defect per mistake.
+
+use crate::base::{Element, Error, ErrorKind};
+use std::fmt;
+
+/// One reason why a soup is no orientable 2-manifold.
+///
+/// Faces are numbered in the caller's order.
+#[derive(Debug, Clone, PartialEq, Eq)]
+#[non_exhaustive]
+pub enum Defect {
+    /// A face has fewer than three vertices.
+    FaceTooSmall {
+        /// The face.
+        face: u64,
+        /// Its size.
+        size: u32,
+    },
+    /// A face names a vertex that does not exist.
+    IndexOutOfRange {
+        /// The face.
+        face: u64,
+        /// The index.
+        vertex: u64,
+        /// The number of vertices.
+        vertices: u64,
+    },
+    /// A vertex occurs twice in a face.
+    RepeatedVertex {
+        /// The face.
+        face: u64,
+        /// The vertex.
+        vertex: u64,
+    },
+    /// Two faces run through an edge in the same direction.
+    InconsistentOrientation {
+        /// The edge's vertices.
+        edge: (u64, u64),
+        /// The two faces.
+        faces: Vec<u64>,
+    },
+    /// More than two faces share an edge.
+    NonManifoldEdge {
+        /// The edge's vertices.
+        edge: (u64, u64),
+        /// The faces.
+        faces: Vec<u64>,
+    },
+    /// The faces around a vertex form more than one fan.
+    NonManifoldVertex {
+        /// The vertex.
+        vertex: u64,
+    },
+}
+
+impl Defect {
+    /// The kind of error that this defect is.
+    pub fn kind(&self) -> ErrorKind {
+        match self {
+            Self::FaceTooSmall { .. } => ErrorKind::FaceTooSmall,
+            Self::IndexOutOfRange { .. } => ErrorKind::IndexOutOfRange,
+            Self::RepeatedVertex { .. } => ErrorKind::RepeatedVertex,
+            Self::InconsistentOrientation { .. } => ErrorKind::InconsistentOrientation,
+            Self::NonManifoldEdge { .. } => ErrorKind::NonManifoldEdge,
+            Self::NonManifoldVertex { .. } => ErrorKind::NonManifoldVertex,
+        }
+    }
+
+    /// The elements concerned: the vertex or edge first, then the faces.
+    pub fn elements(&self) -> Vec<Element> {
+        match self {
+            Self::FaceTooSmall { face, .. } => vec![Element::Face(*face)],
+            Self::IndexOutOfRange { face, vertex, .. } | Self::RepeatedVertex { face, vertex } => {
+                vec![Element::Vertex(*vertex), Element::Face(*face)]
+            }
+            Self::InconsistentOrientation { edge, faces }
+            | Self::NonManifoldEdge { edge, faces } => {
+                let mut elements = vec![Element::Edge(edge.0, edge.1)];
+                elements.extend(faces.iter().map(|&f| Element::Face(f)));
+                elements
+            }
+            Self::NonManifoldVertex { vertex } => vec![Element::Vertex(*vertex)],
+        }
+    }
+}
+
+impl fmt::Display for Defect {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::FaceTooSmall { face, size } => {
+                write!(f, "face {face} has {size} vertices, at least 3 are needed")
+            }
+            Self::IndexOutOfRange { face, vertex, vertices } => {
+                write!(f, "face {face} names vertex {vertex}, but there are {vertices}")
+            }
+            Self::RepeatedVertex { face, vertex } => {
+                write!(f, "face {face} contains vertex {vertex} twice")
+            }
+            Self::InconsistentOrientation { edge, faces } => write!(
+                f,
+                "edge {}-{}: faces {} run through it in the same direction",
+                edge.0,
+                edge.1,
+                list(faces)
+            ),
+            Self::NonManifoldEdge { edge, faces } => {
+                write!(f, "edge {}-{} has {} faces: {}", edge.0, edge.1, faces.len(), list(faces))
+            }
+            Self::NonManifoldVertex { vertex } => {
+                write!(f, "the faces around vertex {vertex} form more than one fan")
+            }
+        }
+    }
+}
+
+/// Face numbers for people; a hub with a thousand faces stays one line.
+fn list(faces: &[u64]) -> String {
+    const SHOWN: usize = 8;
+    let shown: Vec<String> = faces.iter().take(SHOWN).map(u64::to_string).collect();
+    let rest = if faces.len() > SHOWN { ", …" } else { "" };
+    shown.join(", ") + rest
+}
+
+/// Why a mesh could not be built: every defect found, or a limit exceeded.
+#[derive(Debug)]
+pub enum Defects {
+    /// The defects of the soup, at least one. If a face cannot be used at all,
+    /// the fans of vertices are not judged, since they would lack that face.
+    Soup(Vec<Defect>),
+    /// The arguments or the sizes are unusable as a whole.
+    Call(Error),
+}
+
+impl From<Error> for Defects {
+    fn from(error: Error) -> Self {
+        Self::Call(error)
+    }
+}
+
+impl From<Defects> for Error {
+    /// The first defect, and how many more there are.
+    fn from(defects: Defects) -> Self {
+        let list = match defects {
+            Defects::Call(error) => return error,
+            Defects::Soup(list) => list,
+        };
+        let first = &list[0];
+        let more = match list.len() {
+            1 => String::new(),
+            n => format!(" ({} more defects)", n - 1),
+        };
+        Self::new(first.kind(), format!("{first}{more}")).with_elements(first.elements())
+    }
+}

@@ -1,0 +1,152 @@
+//! Where the corners of a face are: irregular faces first, the rest closed-form.
+//!
+//! A corner is numbered by its place in the concatenated face-vertex array.
+//! Faces of another size than the regular one come first and carry offsets; the
+//! regular faces (quads, or triangles if there is nothing else) follow and need
+//! none, so that the bulk of a refined mesh costs no memory and no look-up.
+
+use std::ops::Range;
+
+/// Face sizes and the corner ↔ face arithmetic of a mesh.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(crate) struct Layout {
+    /// First corner of each irregular face, and their total at the end.
+    offsets: Vec<u32>,
+    /// Face of each irregular corner.
+    face_of: Vec<u32>,
+    /// Size of the regular faces: 3 or 4.
+    side: u32,
+    /// Number of corners in all.
+    corners: u32,
+}
+
+impl Layout {
+    /// A layout from the sizes of the irregular faces and a number of regular
+    /// ones. The caller has checked that the corners fit the index type.
+    pub(crate) fn new(irregular: impl Iterator<Item = u32>, side: u32, regular: u32) -> Self {
+        debug_assert!(side == 3 || side == 4);
+        let mut offsets = vec![0];
+        let mut face_of = Vec::new();
+        for (face, size) in (0..).zip(irregular) {
+            face_of.resize(face_of.len() + size as usize, face);
+            offsets.push(face_of.len() as u32);
+        }
+        let corners = face_of.len() as u32 + side * regular;
+        Self { offsets, face_of, side, corners }
+    }
+
+    pub(crate) fn corners(&self) -> u32 {
+        self.corners
+    }
+
+    /// Corners of irregular faces; the first regular corner.
+    pub(crate) fn irregular_corners(&self) -> u32 {
+        self.face_of.len() as u32
+    }
+
+    /// Irregular faces; the first regular face.
+    pub(crate) fn irregular_faces(&self) -> u32 {
+        self.offsets.len() as u32 - 1
+    }
+
+    pub(crate) fn side(&self) -> u32 {
+        self.side
+    }
+
+    pub(crate) fn faces(&self) -> u32 {
+        self.irregular_faces() + (self.corners - self.irregular_corners()) / self.side
+    }
+
+    /// Corners from which on every face is a quad: the fast path's range.
+    pub(crate) fn first_quad_corner(&self) -> u32 {
+        if self.side == 4 { self.irregular_corners() } else { self.corners }
+    }
+
+    /// The corners of a face.
+    pub(crate) fn face(&self, face: u32) -> Range<u32> {
+        let n = self.irregular_faces();
+        if face < n {
+            self.offsets[face as usize]..self.offsets[face as usize + 1]
+        } else {
+            let start = self.irregular_corners() + self.side * (face - n);
+            start..start + self.side
+        }
+    }
+
+    #[inline]
+    pub(crate) fn face_of(&self, corner: u32) -> u32 {
+        let first = self.irregular_corners();
+        if corner < first {
+            self.face_of[corner as usize]
+        } else if self.side == 4 {
+            self.irregular_faces() + (corner - first) / 4
+        } else {
+            self.irregular_faces() + (corner - first) / 3
+        }
+    }
+
+    /// The next corner of the same face.
+    #[inline]
+    pub(crate) fn next(&self, corner: u32) -> u32 {
+        let first = self.irregular_corners();
+        if corner >= first && self.side == 4 {
+            let local = corner - first;
+            first + ((local & !3) | ((local + 1) & 3))
+        } else {
+            let face = self.face(self.face_of(corner));
+            if corner + 1 == face.end { face.start } else { corner + 1 }
+        }
+    }
+
+    /// The previous corner of the same face.
+    #[inline]
+    pub(crate) fn prev(&self, corner: u32) -> u32 {
+        let first = self.irregular_corners();
+        if corner >= first && self.side == 4 {
+            let local = corner - first;
+            first + ((local & !3) | (local.wrapping_sub(1) & 3))
+        } else {
+            let face = self.face(self.face_of(corner));
+            if corner == face.start { face.end - 1 } else { corner - 1 }
+        }
+    }
+
+    /// Bytes held.
+    pub(crate) fn bytes(&self) -> u64 {
+        4 * (self.offsets.capacity() + self.face_of.capacity()) as u64
+    }
+
+    /// True if the offsets, sizes and the reverse map agree.
+    pub(crate) fn is_consistent(&self) -> bool {
+        let irregular = (0..self.irregular_faces()).all(|f| {
+            let size = self.face(f).len() as u32;
+            size >= 3 && size != self.side && self.face(f).all(|c| self.face_of(c) == f)
+        });
+        let rest = self.corners.checked_sub(self.irregular_corners());
+        irregular && rest.is_some_and(|rest| rest.is_multiple_of(self.side))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn next_and_prev_walk_every_face() {
+        for (irregular, side, regular) in
+            [(vec![5, 3, 7], 4, 3), (vec![], 4, 2), (vec![], 3, 4), (vec![3], 4, 0)]
+        {
+            let layout = Layout::new(irregular.into_iter(), side, regular);
+            assert!(layout.is_consistent());
+            for f in 0..layout.faces() {
+                let face = layout.face(f);
+                for c in face.clone() {
+                    assert_eq!(layout.face_of(c), f);
+                    let next = if c + 1 == face.end { face.start } else { c + 1 };
+                    assert_eq!(layout.next(c), next);
+                    assert_eq!(layout.prev(next), c);
+                }
+            }
+        }
+    }
+}

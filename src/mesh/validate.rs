@@ -1,0 +1,78 @@
+//! One function that checks every invariant a [`Mesh`] relies on.
+
+use super::Mesh;
+use crate::base::{Error, ErrorKind, NONE, Result};
+
+impl Mesh {
+    /// Checks every stored invariant: the table in the module's documentation,
+    /// and that the topology is an orientable 2-manifold. O(H).
+    ///
+    /// # Errors
+    /// [`ErrorKind::BrokenInvariant`], which is a defect of this library.
+    pub fn validate(&self) -> Result<()> {
+        self.check_layout()?;
+        self.check_corners()?;
+        self.check_fans()?;
+        self.check_lists()?;
+        if self.anchored { super::anchor::check(self) } else { Ok(()) }
+    }
+
+    fn check_layout(&self) -> Result<()> {
+        let corners = self.layout.corners() as usize;
+        ensure(self.layout.is_consistent(), "layout", 0)?;
+        ensure(self.vert.len() == corners && self.twin.len() == corners, "array lengths", corners)?;
+        let Some(source) = &self.face_source else { return Ok(()) };
+        let mut sorted = source.clone();
+        sorted.sort_unstable();
+        let permutation = sorted.iter().enumerate().all(|(i, &f)| i == f as usize);
+        ensure(permutation && source.len() == self.faces(), "face source", 0)
+    }
+
+    /// Indices in range, twins mutual, edges running opposite ways.
+    fn check_corners(&self) -> Result<()> {
+        for c in 0..self.layout.corners() {
+            let v = self.vert[c as usize];
+            ensure((v as usize) < self.start.len(), "vertex of corner", c as usize)?;
+            let twin = self.twin[c as usize];
+            if twin == NONE {
+                continue;
+            }
+            ensure((twin as usize) < self.twin.len(), "twin range", c as usize)?;
+            ensure(self.twin[twin as usize] == c && twin != c, "twin of twin", c as usize)?;
+            let end = self.vert[self.next(c) as usize];
+            let back = self.vert[self.next(twin) as usize];
+            ensure(self.vert[twin as usize] == end && back == v, "twin's vertices", c as usize)?;
+        }
+        Ok(())
+    }
+
+    /// Every corner is in the one fan of its vertex, which starts where it should.
+    fn check_fans(&self) -> Result<()> {
+        let mut reached = 0;
+        for (v, &start) in self.start.iter().enumerate() {
+            let fan: Vec<u32> = self.fan(v as u32).collect();
+            reached += fan.len();
+            ensure(fan.iter().all(|&c| self.vert[c as usize] as usize == v), "fan", v)?;
+            let smallest = fan.iter().min().copied().unwrap_or(NONE);
+            ensure(self.on_rim(v as u32) || start == smallest, "start of fan", v)?;
+        }
+        ensure(reached == self.vert.len(), "corners reached by fans", reached)
+    }
+
+    fn check_lists(&self) -> Result<()> {
+        let open = (0..).zip(&self.twin).filter(|(_, twin)| **twin == NONE).map(|(c, _)| c);
+        ensure(self.rim.iter().copied().eq(open), "rim", self.rim.len())?;
+        let special = (0..self.start.len() as u32).filter(|&v| !self.is_regular(v));
+        ensure(self.special.iter().copied().eq(special), "special", self.special.len())?;
+        let sorted = self.corner_tags.windows(2).all(|pair| pair[0] < pair[1]);
+        let tagged = self.corner_tags.iter().all(|&v| self.on_rim(v));
+        ensure(sorted && tagged, "corner tags", self.corner_tags.len())
+    }
+}
+
+fn ensure(holds: bool, what: &str, at: usize) -> Result<()> {
+    if holds {
+        return Ok(());
+    }
+    Err(Error::new(ErrorKind::BrokenInvariant, format!("broken invariant: {what} ({at})")))
+}
