@@ -140,3 +140,37 @@ fn turntable(view: &View) -> (Mat3, Vec3) {
     };
     (rotation, sky)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::polygons::Polygons;
+    use super::*;
+
+    fn camera(positions: &[[f64; 3]], view: &View) -> Camera {
+        let mesh = Polygons { positions, face_sizes: &[3], face_vertices: &[0, 1, 2] };
+        Camera::fit(&[mesh.check().unwrap()], view).unwrap()
+    }
+
+    #[test]
+    fn the_sky_is_where_the_up_axis_points() {
+        let corners = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];
+        for (up, axis) in [(Up::Y, [0.0, 1.0, 0.0]), (Up::Z, [0.0, 0.0, 1.0])] {
+            for elevation in [-90.0, -20.0, 0.0, 50.0, 90.0] {
+                let camera = camera(&corners, &View { elevation, up, ..View::default() });
+                let above = camera.to_view(axis) - camera.to_view([0.0; 3]);
+                assert!(camera.sky().distance(above.normalize()) < 1e-6, "{up:?} {elevation}");
+                assert!(elevation.abs() > 80.0 || camera.sky().y > 0.5);
+            }
+        }
+    }
+
+    #[test]
+    fn coinciding_points_lie_in_the_middle() {
+        let view = View { width: 30, height: 20, supersample: 1, ..View::default() };
+        for point in [[0.0; 3], [1e308; 3], [1e-320, 0.0, 5.0]] {
+            let camera = camera(&[point; 3], &view);
+            let middle = Point { x: 15 * SUBSAMPLE, y: 10 * SUBSAMPLE, inverse_depth: 1.0 / EYE };
+            assert_eq!(camera.project(camera.to_view(point)), middle);
+        }
+    }
+}
