@@ -6,18 +6,29 @@
 //! costs less than keeping lists of those that are not.
 
 use crate::base::{NONE, Scalar};
-use crate::mesh::Mesh;
+use crate::mesh::{Mesh, turn_in_quad};
 use crate::scheme::Taps;
 
 /// A value of `W` lanes.
 pub(super) type Value<T, const W: usize> = [T; W];
 
+/// Four lanes, which compilers turn into vector registers; narrower values are
+/// padded with zeros on the way in.
+type Wide<T> = [T; 4];
+
+#[inline(always)]
+fn widen<T: Scalar, const W: usize>(value: &Value<T, W>) -> Wide<T> {
+    std::array::from_fn(|lane| if lane < W { value[lane] } else { T::default() })
+}
+
+#[inline(always)]
+fn narrow<T: Scalar, const W: usize>(value: Wide<T>) -> Value<T, W> {
+    std::array::from_fn(|lane| value[lane])
+}
+
 /// Σ wᵢ·xᵢ, lane by lane, in order.
 #[inline(always)]
-fn combine<T: Scalar, const N: usize, const W: usize>(
-    weights: [T; N],
-    values: [&Value<T, W>; N],
-) -> Value<T, W> {
+fn combine<T: Scalar, const N: usize>(weights: [T; N], values: [Wide<T>; N]) -> Wide<T> {
     std::array::from_fn(|lane| {
         let mut sum = weights[0] * values[0][lane];
         for i in 1..N {
@@ -27,23 +38,25 @@ fn combine<T: Scalar, const N: usize, const W: usize>(
     })
 }
 
-/// The corner operator on a quad, all four corners; `weights` are α₀ … α₃.
+/// The univariate cut towards either end of an edge; `cut` is (near, far).
 #[inline(always)]
-pub(super) fn quad_corners<T: Scalar, const W: usize>(
-    weights: [T; 4],
-    x: [&Value<T, W>; 4],
-) -> [Value<T, W>; 4] {
-    std::array::from_fn(|i| quad_corner(weights, x, i))
+fn cut_edge<T: Scalar>(cut: [T; 2], a: Wide<T>, b: Wide<T>) -> [Wide<T>; 2] {
+    [combine(cut, [a, b]), combine(cut, [b, a])]
 }
 
-/// The corner operator on a quad at corner `i`.
+/// The corner operator on a quad, all four corners: the tensor square of the
+/// univariate cut.
 #[inline(always)]
-pub(super) fn quad_corner<T: Scalar, const W: usize>(
-    weights: [T; 4],
+pub(super) fn quad_corners<T: Scalar, const W: usize>(
+    cut: [T; 2],
     x: [&Value<T, W>; 4],
-    i: usize,
-) -> Value<T, W> {
-    combine(weights, [x[i], x[(i + 1) % 4], x[(i + 2) % 4], x[(i + 3) % 4]])
+) -> [Value<T, W>; 4] {
+    let [x0, x1, x2, x3] = x.map(widen);
+    let low = cut_edge(cut, x0, x1);
+    let high = cut_edge(cut, x3, x2);
+    let left = cut_edge(cut, low[0], high[0]);
+    let right = cut_edge(cut, low[1], high[1]);
+    [left[0], right[0], right[1], left[1]].map(narrow)
 }
 
 /// The grid around a quad: the corners of its face, in order, and for each
@@ -82,8 +95,7 @@ impl<'a> Quads<'a> {
 
     #[inline(always)]
     fn turn(self, corner: u32, by: u32) -> u32 {
-        let local = corner - self.first;
-        self.first + ((local & !3) | (local.wrapping_add(by) & 3))
+        turn_in_quad(self.first, corner, by)
     }
 
     /// The first corner of the quad that a corner belongs to.
@@ -172,7 +184,7 @@ pub(super) fn grid_children<T: Scalar, const W: usize>(
     grid: &Grid,
     values: &[Value<T, W>],
 ) -> [Value<T, W>; 4] {
-    let at = |i: u32| &values[i as usize];
+    let at = |i: u32| widen(&values[i as usize]);
     let Grid { own, near, far, beyond } = grid;
     // Rows of the grid, vertex 0 lower left, counter-clockwise.
     let rows = [
@@ -183,7 +195,7 @@ pub(super) fn grid_children<T: Scalar, const W: usize>(
     ];
     let left = rows.map(|r| combine(taps, [r[0], r[1], r[2]]));
     let right = rows.map(|r| combine(taps, [r[3], r[2], r[1]]));
-    let low = |x: &[Value<T, W>; 4]| combine(taps, [&x[0], &x[1], &x[2]]);
-    let high = |x: &[Value<T, W>; 4]| combine(taps, [&x[3], &x[2], &x[1]]);
+    let low = |x: &[Wide<T>; 4]| narrow(combine(taps, [x[0], x[1], x[2]]));
+    let high = |x: &[Wide<T>; 4]| narrow(combine(taps, [x[3], x[2], x[1]]));
     [low(&left), low(&right), high(&right), high(&left)]
 }

@@ -1,6 +1,6 @@
 //! The values of one step: rows applied where they are needed, kernels elsewhere.
 
-use super::kernel::{Quads, Value, grid_children, quad_corner, quad_corners};
+use super::kernel::{Quads, Value, grid_children, quad_corners};
 use super::memory;
 use crate::base::{Context, Fraction, Result, Scalar};
 use crate::refine::CornerSplit;
@@ -98,7 +98,7 @@ impl<'a> Step<'a> {
         values: &[Value<T, W>],
         out: &mut [Value<T, W>],
     ) -> Result<()> {
-        let cut = self.cut_weights();
+        let cut = self.cut();
         let quad = |corner: u32| {
             let corners = self.quads.vertices(corner).map(|v| &values[v as usize]);
             (!self.mirrors || !self.quads.touches_rim(corner)).then(|| quad_corners(cut, corners))
@@ -185,11 +185,11 @@ impl<'a> Step<'a> {
         context.fill(added, 1, |start, part| by_row(corners + start as u32, part))
     }
 
-    /// C_½ on a quad in the working precision.
-    fn cut_weights<T: Scalar>(&self) -> [T; 4] {
+    /// The univariate cut, whose tensor square is C_½ on a quad under any rule.
+    fn cut<T: Scalar>(&self) -> [T; 2] {
         let mut weights = CornerWeights::<f64>::new(self.scheme.rule(), Fraction::HALF);
-        let quad = weights.of(4);
-        std::array::from_fn(|i| T::from_f64(quad[i]))
+        let cut = weights.of(2);
+        std::array::from_fn(|i| T::from_f64(cut[i]))
     }
 }
 
@@ -235,7 +235,7 @@ fn accumulate<T: Scalar, const W: usize>(total: &mut Value<T, W>, w: T, value: &
 struct SplitSum<'v, T, const W: usize> {
     quads: Quads<'v>,
     mirrors: bool,
-    cut: [T; 4],
+    cut: [T; 2],
     irregular: &'v [Value<T, W>],
     rows: SchemeRows<'v, f64>,
     points: Sum<'v, T, W>,
@@ -247,7 +247,7 @@ impl<'v, T: Scalar, const W: usize> SplitSum<'v, T, W> {
         Self {
             quads: step.quads,
             mirrors: step.mirrors,
-            cut: step.cut_weights(),
+            cut: step.cut(),
             irregular,
             rows: SchemeRows::new(step.scheme, step.split),
             points: Sum::new(values),
@@ -271,7 +271,7 @@ impl<'v, T: Scalar, const W: usize> SplitSum<'v, T, W> {
             && !(self.mirrors && self.quads.touches_rim(face))
         {
             let corners = self.quads.vertices(face).map(|v| &self.points.values[v as usize]);
-            return quad_corner(self.cut, corners, (vertex - face) as usize);
+            return quad_corners(self.cut, corners)[(vertex - face) as usize];
         }
         let rows = &mut self.rows;
         self.points.of(|sink| rows.split_row(vertex, sink))

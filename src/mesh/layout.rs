@@ -18,6 +18,15 @@ pub(crate) struct Layout {
     side: u32,
     /// Number of corners in all.
     corners: u32,
+    /// Corners from which on every face is a quad.
+    first_quad: u32,
+}
+
+/// The corner `by` places further around its quad; quads begin at `first`.
+#[inline(always)]
+pub(crate) fn turn_in_quad(first: u32, corner: u32, by: u32) -> u32 {
+    let local = corner.wrapping_sub(first);
+    first.wrapping_add((local & !3) | (local.wrapping_add(by) & 3))
 }
 
 impl Layout {
@@ -32,7 +41,8 @@ impl Layout {
             offsets.push(face_of.len() as u32);
         }
         let corners = face_of.len() as u32 + side * regular;
-        Self { offsets, face_of, side, corners }
+        let first_quad = if side == 4 { face_of.len() as u32 } else { corners };
+        Self { offsets, face_of, side, corners, first_quad }
     }
 
     pub(crate) fn corners(&self) -> u32 {
@@ -59,7 +69,7 @@ impl Layout {
 
     /// Corners from which on every face is a quad: the fast path's range.
     pub(crate) fn first_quad_corner(&self) -> u32 {
-        if self.side == 4 { self.irregular_corners() } else { self.corners }
+        self.first_quad
     }
 
     /// The corners of a face.
@@ -86,29 +96,31 @@ impl Layout {
     }
 
     /// The next corner of the same face.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn next(&self, corner: u32) -> u32 {
-        let first = self.irregular_corners();
-        if corner >= first && self.side == 4 {
-            let local = corner - first;
-            first + ((local & !3) | ((local + 1) & 3))
-        } else {
-            let face = self.face(self.face_of(corner));
-            if corner + 1 == face.end { face.start } else { corner + 1 }
-        }
+        let first = self.first_quad;
+        if corner >= first { turn_in_quad(first, corner, 1) } else { self.next_irregular(corner) }
     }
 
     /// The previous corner of the same face.
-    #[inline]
+    #[inline(always)]
     pub(crate) fn prev(&self, corner: u32) -> u32 {
-        let first = self.irregular_corners();
-        if corner >= first && self.side == 4 {
-            let local = corner - first;
-            first + ((local & !3) | (local.wrapping_sub(1) & 3))
-        } else {
-            let face = self.face(self.face_of(corner));
-            if corner == face.start { face.end - 1 } else { corner - 1 }
-        }
+        let first = self.first_quad;
+        if corner >= first { turn_in_quad(first, corner, 3) } else { self.prev_irregular(corner) }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn next_irregular(&self, corner: u32) -> u32 {
+        let face = self.face(self.face_of(corner));
+        if corner + 1 == face.end { face.start } else { corner + 1 }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn prev_irregular(&self, corner: u32) -> u32 {
+        let face = self.face(self.face_of(corner));
+        if corner == face.start { face.end - 1 } else { corner - 1 }
     }
 
     /// Bytes held.

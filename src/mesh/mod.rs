@@ -26,7 +26,7 @@ mod validate;
 
 pub use build::{BuildOptions, Built, NonManifold, build};
 pub use defect::{Defect, Defects};
-pub(crate) use layout::Layout;
+pub(crate) use layout::{Layout, turn_in_quad};
 pub use survey::Survey;
 
 use crate::base::{Error, NONE, Result};
@@ -195,24 +195,24 @@ impl Mesh {
         self.layout.bytes() + 4 * (lists + self.corner_tags.capacity() + source) as u64
     }
 
-    #[inline]
+    #[inline(always)]
     pub(crate) fn next(&self, corner: u32) -> u32 {
         self.layout.next(corner)
     }
 
-    #[inline]
+    #[inline(always)]
     pub(crate) fn prev(&self, corner: u32) -> u32 {
         self.layout.prev(corner)
     }
 
     /// The next corner around the vertex, counter-clockwise, or [`NONE`].
-    #[inline]
+    #[inline(always)]
     pub(crate) fn ccw(&self, corner: u32) -> u32 {
         self.twin[self.prev(corner) as usize]
     }
 
     /// The next corner around the vertex, clockwise, or [`NONE`].
-    #[inline]
+    #[inline(always)]
     pub(crate) fn cw(&self, corner: u32) -> u32 {
         match self.twin[corner as usize] {
             NONE => NONE,

@@ -58,14 +58,15 @@ impl CornerSplit<'_> {
         }
         context.for_each(parts, |(corners, part)| {
             let (quads, _) = part.as_chunks_mut::<4>();
-            let mut quads = quads.iter_mut();
-            for c in corners.start as u32..corners.end as u32 {
-                let twin = parent.twin[c as usize];
-                if leads_edge(c, twin)
-                    && let Some(quad) = quads.next()
-                {
-                    *quad = [parent.next(c), c, parent.next(twin), twin];
-                }
+            let mut place = 0;
+            let twins = &parent.twin[corners.clone()];
+            for (c, &twin) in (corners.start as u32..).zip(twins) {
+                // Written whether it counts or not: which corner leads its edge
+                // is hard to foresee, and a store costs less than a wrong guess.
+                let Some(quad) = quads.get_mut(place) else { break };
+                let across = if twin == NONE { NONE } else { parent.next(twin) };
+                *quad = [parent.next(c), c, across, twin];
+                place += usize::from(leads_edge(c, twin));
             }
         })
     }
