@@ -30,8 +30,7 @@ pub fn assert_same(actual: &Poly<f64>, expected: &Poly<f64>, relative: f64, what
 /// For each vertex of `actual`, its partner in `expected`; or what differs.
 pub fn same_mesh(actual: &Poly<f64>, expected: &Poly<f64>, relative: f64) -> Verdict<Vec<usize>> {
     check_counts(actual, expected)?;
-    let epsilon = relative * largest_coordinate(expected).max(f64::MIN_POSITIVE);
-    let grid = Grid::new(&expected.positions, epsilon);
+    let grid = Grid::new(&expected.positions, relative);
     let partners = find_partners(actual, &grid)?;
     let only: Option<Vec<usize>> = partners.iter().copied().collect();
     let matched = match only {
@@ -67,28 +66,34 @@ fn check_counts(actual: &Poly<f64>, expected: &Poly<f64>) -> Verdict<()> {
     Err(format!("{v} vertices, {f} faces, {c} corners; expected {w}, {g}, {d}"))
 }
 
-fn largest_coordinate(mesh: &Poly<f64>) -> f64 {
-    mesh.positions.iter().flatten().fold(0.0, |m: f64, x| m.max(x.abs()))
+fn largest_coordinate(points: &[Point<f64>]) -> f64 {
+    points.iter().flatten().fold(0.0, |m: f64, x| m.max(x.abs()))
 }
 
 /// The largest difference of a coordinate; infinite where one is not a number.
 fn distance(x: &Point<f64>, y: &Point<f64>) -> f64 {
-    let part = |k: usize| if x[k] == y[k] { 0.0 } else { (x[k] - y[k]).abs() };
+    // Bits first: equal infinities are no distance apart.
+    let same = |k: usize| x[k].to_bits() == y[k].to_bits();
+    let part = |k: usize| if same(k) { 0.0 } else { (x[k] - y[k]).abs() };
     (0..3).map(part).fold(0.0, |m, d| if d.is_nan() { f64::INFINITY } else { m.max(d) })
 }
 
 // ----------------------------------------------------------------- positions
 
-/// A hash grid whose cells are four tolerances wide.
+/// A hash grid whose cells are at least four tolerances wide.
 struct Grid<'a> {
     points: &'a [Point<f64>],
     epsilon: f64,
+    width: f64,
     cells: HashMap<[i64; 3], Vec<usize>>,
 }
 
 impl<'a> Grid<'a> {
-    fn new(points: &'a [Point<f64>], epsilon: f64) -> Self {
-        let mut it = Self { points, epsilon, cells: HashMap::new() };
+    fn new(points: &'a [Point<f64>], relative: f64) -> Self {
+        let largest = largest_coordinate(points).max(f64::MIN_POSITIVE);
+        // The floor keeps cell numbers small where the tolerance is zero.
+        let width = largest * (4.0 * relative).max(1e-14);
+        let mut it = Self { points, epsilon: relative * largest, width, cells: HashMap::new() };
         for (v, p) in points.iter().enumerate() {
             it.cells.entry(it.cell(p, [0.0; 3])).or_default().push(v);
         }
@@ -97,8 +102,7 @@ impl<'a> Grid<'a> {
 
     /// The cell of a point moved by `shift` tolerances.
     fn cell(&self, p: &Point<f64>, shift: [f64; 3]) -> [i64; 3] {
-        let width = 4.0 * self.epsilon;
-        std::array::from_fn(|k| ((p[k] + shift[k] * self.epsilon) / width).floor() as i64)
+        std::array::from_fn(|k| ((p[k] + shift[k] * self.epsilon) / self.width).floor() as i64)
     }
 
     /// All points within the tolerance, lazily: they may be very many.

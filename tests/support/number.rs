@@ -3,8 +3,9 @@
 use std::fmt::Debug;
 use std::ops::{Add, Mul, Sub};
 
+use num_bigint::BigInt;
 use num_rational::BigRational;
-use num_traits::{FromPrimitive, ToPrimitive, Zero};
+use num_traits::{FromPrimitive, One, ToPrimitive, Zero};
 
 /// A point or vector of three coordinates.
 pub type Point<N> = [N; 3];
@@ -35,6 +36,12 @@ pub trait Number:
 
     fn unit() -> Self {
         Self::ratio(1, 1)
+    }
+
+    /// Σ wᵢ xᵢ.
+    fn dot(terms: &[(&Self, &Self)]) -> Self {
+        let products = terms.iter().map(|&(w, x)| w.clone() * x.clone());
+        products.fold(Self::nought(), |sum, x| sum + x)
     }
 }
 
@@ -90,15 +97,27 @@ impl Number for BigRational {
     fn to_double(&self) -> f64 {
         f64::from_exact(self)
     }
+
+    /// Over one common denominator, reduced once: tests run without
+    /// optimisation, and the default reduces at every product and sum.
+    fn dot(terms: &[(&Self, &Self)]) -> Self {
+        let terms: Vec<_> = terms.iter().filter(|(w, x)| !w.is_zero() && !x.is_zero()).collect();
+        let below = |(w, x): &(&Self, &Self)| w.denom() * x.denom();
+        let common = terms.iter().fold(BigInt::one(), |common, term| {
+            let own = below(term);
+            // common / own in lowest terms has the factor that own lacks.
+            let missing = Self::new(own, common.clone()).numer().clone();
+            common * missing
+        });
+        let over = |&&(w, x): &&(&Self, &Self)| w.numer() * x.numer() * (&common / below(&(w, x)));
+        Self::new(terms.iter().map(over).sum(), common)
+    }
 }
 
-/// Σ wᵢ xᵢ.
+/// Σ wᵢ xᵢ of points.
 pub fn combine<'a, N: Number + 'a>(terms: impl IntoIterator<Item = (N, &'a Point<N>)>) -> Point<N> {
-    let mut sum = [N::nought(), N::nought(), N::nought()];
-    for (w, x) in terms {
-        sum = add(&sum, &scale(&w, x));
-    }
-    sum
+    let terms: Vec<_> = terms.into_iter().collect();
+    std::array::from_fn(|k| N::dot(&terms.iter().map(|(w, x)| (w, &x[k])).collect::<Vec<_>>()))
 }
 
 pub fn add<N: Number>(x: &Point<N>, y: &Point<N>) -> Point<N> {

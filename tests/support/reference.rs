@@ -226,11 +226,26 @@ fn average_weight<N: Number>(j: usize, n: usize, t: &N) -> N {
     }
 }
 
-/// `C_t` at corner `i` of a polygon.
-pub fn corner_point<N: Number>(polygon: &[Point<N>], i: usize, t: &N, rule: Rule) -> Point<N> {
+/// `C_t` at corner `i` of a polygon, from its weights.
+fn corner_point<N: Number>(polygon: &[Point<N>], i: usize, weights: &[N]) -> Point<N> {
     let n = polygon.len();
-    let weights = corner_weights(n, t, rule).into_iter().enumerate();
-    combine(weights.map(|(j, w)| (w, &polygon[(i + j) % n])))
+    combine(weights.iter().enumerate().map(|(j, w)| (w.clone(), &polygon[(i + j) % n])))
+}
+
+/// `C_t` of every corner of a mesh, on its face as `look` sees it; none for the
+/// corners that do not lie in the polygon seen.
+fn corner_points<N: Number>(
+    poly: &Poly<N>,
+    t: &N,
+    rule: Rule,
+    look: impl Fn(usize) -> View<N>,
+) -> Vec<Option<Point<N>>> {
+    let on_face = |f: usize| {
+        let View { polygon, place } = look(f);
+        let weights = corner_weights(polygon.len(), t, rule);
+        place.into_iter().map(move |i| Some(corner_point(&polygon, i?, &weights)))
+    };
+    (0..poly.faces.len()).flat_map(on_face).collect()
 }
 
 // ------------------------------------------------------- the mirrored faces
@@ -387,10 +402,9 @@ impl<'a, N: Number> DualSplit<'a, N> {
     }
 
     fn corners_plain(&mut self, rule: Rule) {
-        for c in 0..self.topo.corner_count() {
-            let view = plain_view(self.poly, self.topo.face[c]);
-            let x = corner_point(&view.polygon, self.topo.position[c], &N::ratio(1, 2), rule);
-            self.corner(c, x);
+        let cut = corner_points(self.poly, &N::ratio(1, 2), rule, |f| plain_view(self.poly, f));
+        for (c, x) in cut.into_iter().enumerate() {
+            self.corner(c, x.expect("every corner is in its plain face"));
         }
     }
 
@@ -398,33 +412,33 @@ impl<'a, N: Number> DualSplit<'a, N> {
         if let Some(defect) = anchored_defect(self.poly) {
             panic!("not an anchored mesh: {defect}");
         }
-        for c in 0..self.topo.corner_count() {
-            let x = self.anchored_corner(c, rule);
-            self.corner(c, x);
+        let look = |f| mirrored_view(self.poly, self.topo, f);
+        let cut = corner_points(self.poly, &N::ratio(1, 2), rule, look);
+        for (c, inner) in cut.into_iter().enumerate() {
+            let x = self.row_corner(c).or(inner);
+            self.corner(c, x.expect("a corner off the row sees itself"));
         }
     }
 
-    fn anchored_corner(&self, c: usize, rule: Rule) -> Point<N> {
+    /// The child of a corner that has a boundary edge at its vertex.
+    fn row_corner(&self, c: usize) -> Option<Point<N>> {
         let topo = self.topo;
         let (out, into) = (c, topo.prev[c]);
         let v = topo.vert[c];
         match (topo.is_boundary_edge(out), topo.is_boundary_edge(into)) {
-            (true, true) => self.at(v).clone(),
-            (true, false) => self.along_row(v, topo.vert[topo.next[c]]),
-            (false, true) => self.along_row(v, topo.vert[into]),
-            (false, false) => {
-                let view = mirrored_view(self.poly, topo, topo.face[c]);
-                let i = view.place[topo.position[c]].expect("an inner corner sees itself");
-                corner_point(&view.polygon, i, &N::ratio(1, 2), rule)
-            }
+            (true, true) => Some(self.at(v).clone()),
+            (true, false) => Some(self.along_row(v, topo.vert[topo.next[c]])),
+            (false, true) => Some(self.along_row(v, topo.vert[into])),
+            (false, false) => None,
         }
     }
 
     /// The row is half an interval long beside a corner.
     fn along_row(&self, v: usize, u: usize) -> Point<N> {
-        match self.topo.is_single_face(u) {
-            true => blend((1, 2), self.at(v), (1, 2), self.at(u)),
-            false => blend((3, 4), self.at(v), (1, 4), self.at(u)),
+        if self.topo.is_single_face(u) {
+            blend((1, 2), self.at(v), (1, 2), self.at(u))
+        } else {
+            blend((3, 4), self.at(v), (1, 4), self.at(u))
         }
     }
 
@@ -490,9 +504,10 @@ impl<'a, N: Number> DualSplit<'a, N> {
 
     fn vertex_faces(&mut self) {
         for v in 0..self.poly.positions.len() {
-            let cycle = match self.topo.is_boundary(v) {
-                true => self.boundary_vertex_cycle(v),
-                false => self.topo.fans[v].clone(),
+            let cycle = if self.topo.is_boundary(v) {
+                self.boundary_vertex_cycle(v)
+            } else {
+                self.topo.fans[v].clone()
             };
             // An interior vertex of valence 2 gives no face, nor does an
             // isolated one, nor a boundary vertex without β points.
@@ -561,36 +576,23 @@ pub fn split_primal<N: Number>(poly: &Poly<N>) -> Step<N> {
 /// The smoothing pass `M_t`.
 pub fn pass<N: Number>(poly: &Poly<N>, t: &N, rule: Rule, kind: PassKind) -> Poly<N> {
     let topo = Topology::new(poly.positions.len(), &poly.faces);
+    let look = |f| match kind {
+        PassKind::Anchored => mirrored_view(poly, &topo, f),
+        PassKind::Free | PassKind::Primal => plain_view(poly, f),
+    };
+    let moved = corner_points(poly, t, rule, look);
     let move_vertex = |v: usize| {
         if topo.is_isolated(v) {
             poly.positions[v].clone()
         } else if topo.is_boundary(v) {
             boundary_pass(poly, &topo, v, t, kind)
         } else {
-            interior_pass(poly, &topo, v, t, rule, kind)
+            let seen = |&c: &usize| moved[c].as_ref().expect("an interior vertex sees itself");
+            mean(topo.fans[v].iter().map(seen))
         }
     };
     let positions = (0..poly.positions.len()).map(move_vertex).collect();
     Poly { positions, ..poly.clone() }
-}
-
-fn interior_pass<N: Number>(
-    poly: &Poly<N>,
-    topo: &Topology,
-    v: usize,
-    t: &N,
-    rule: Rule,
-    kind: PassKind,
-) -> Point<N> {
-    let seen = |&c: &usize| {
-        let view = match kind {
-            PassKind::Anchored => mirrored_view(poly, topo, topo.face[c]),
-            PassKind::Free | PassKind::Primal => plain_view(poly, topo.face[c]),
-        };
-        let i = view.place[topo.position[c]].expect("an interior vertex sees itself");
-        corner_point(&view.polygon, i, t, rule)
-    };
-    mean(&topo.fans[v].iter().map(seen).collect::<Vec<_>>())
 }
 
 /// The univariate filter (a/2, 1−a, a/2), a = (1−t)/2, along the boundary.

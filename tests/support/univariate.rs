@@ -78,14 +78,14 @@ pub fn step(points: &[BigRational], mask: &[BigRational], curve: Curve) -> Vec<B
         return (0..n).flat_map(|j| [new(j, false), new(j, true)]).collect();
     }
     let mut out = vec![points[0].clone()];
-    match curve {
-        Curve::Open => out.extend((0..n - 1).flat_map(|j| [new(j, false), new(j, true)])),
-        // Between an anchor and its mirrored neighbours only one half counts.
-        _ => {
-            out.push(new(0, true));
-            out.extend((1..n - 2).flat_map(|j| [new(j, false), new(j, true)]));
-            out.push(new(n - 2, false));
-        }
+    if curve == Curve::Open {
+        out.extend((0..n - 1).flat_map(|j| [new(j, false), new(j, true)]));
+    } else {
+        // Between an anchor's two neighbours, one of them an image, only one
+        // half counts.
+        out.push(new(0, true));
+        out.extend((1..n - 2).flat_map(|j| [new(j, false), new(j, true)]));
+        out.push(new(n - 2, false));
     }
     out.push(points[points.len() - 1].clone());
     out
