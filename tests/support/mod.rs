@@ -22,7 +22,7 @@
 //! | [`cases`] | configuration of property tests, random schemes |
 //! | [`kernel`] | the kernel in the oracle's words |
 //! | [`exact`] | the kernel's weights in exact arithmetic |
-//! | [`allocation`] | how much memory a thread asks for |
+//! | [`allocation`] | the most memory that a thread holds |
 
 // Each test binary compiles this tree for itself and uses a part of it.
 #![allow(dead_code)]
