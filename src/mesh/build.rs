@@ -1,7 +1,7 @@
 //! From a polygon soup to a [`Mesh`]: checks, order, twins, fans.
 
 use super::pairing::{BadEdge, Pairing, pair};
-use super::{Defect, Defects, Layout, Mesh, anchor, cut};
+use super::{Defect, Defects, Layout, Mesh, VertexSet, anchor, cut};
 use crate::base::{Context, Element, Error, ErrorKind, NONE, Result};
 
 /// What to do with edges and vertices that are not manifold.
@@ -206,6 +206,7 @@ impl Soup {
             start: vec![NONE; vertices],
             rim: Vec::new(),
             special: Vec::new(),
+            special_set: VertexSet::default(),
             corner_tags: Vec::new(),
             anchored: false,
             face_source: self.source,
@@ -249,6 +250,7 @@ impl Mesh {
         self.rim = corners.filter(|&c| self.twin[c as usize] == NONE).collect();
         let vertices = 0..self.start.len() as u32;
         self.special = vertices.filter(|&v| !self.is_regular(v)).collect();
+        self.special_set = VertexSet::new(self.start.len(), &self.special);
     }
 
     /// True for an interior vertex of valence 4.

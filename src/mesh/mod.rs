@@ -9,7 +9,7 @@
 //! | `twin` | corner | the corner across its outgoing edge, or [`NONE`] |
 //! | `start` | vertex | first corner of its fan, or [`NONE`] if isolated |
 //! | `rim` | – | the corners whose outgoing edge is a boundary edge |
-//! | `special` | – | the vertices that are not interior of valence 4 |
+//! | `special` | – | the vertices that are not interior of valence 4, as list and set |
 //!
 //! The fan of an interior vertex starts at its smallest corner, that of a
 //! boundary vertex at the corner whose outgoing edge is the boundary edge.
@@ -21,12 +21,14 @@ mod cut;
 mod defect;
 mod layout;
 mod pairing;
+mod ring;
 mod survey;
 mod validate;
 
 pub use build::{BuildOptions, Built, NonManifold, build};
 pub use defect::{Defect, Defects};
 pub(crate) use layout::{Layout, turn_in_quad};
+pub(crate) use ring::{QuadWalker, VertexSet};
 pub use survey::Survey;
 
 use crate::base::{Error, NONE, Result};
@@ -46,6 +48,7 @@ pub struct Mesh {
     pub(crate) start: Vec<u32>,
     pub(crate) rim: Vec<u32>,
     pub(crate) special: Vec<u32>,
+    pub(crate) special_set: VertexSet,
     pub(crate) corner_tags: Vec<u32>,
     pub(crate) anchored: bool,
     /// Input face of each face, where the order was changed.
@@ -192,7 +195,9 @@ impl Mesh {
         let lists = [&self.vert, &self.twin, &self.start, &self.rim, &self.special];
         let lists: usize = lists.iter().map(|list| list.capacity()).sum();
         let source = self.face_source.as_ref().map_or(0, Vec::capacity);
-        self.layout.bytes() + 4 * (lists + self.corner_tags.capacity() + source) as u64
+        self.layout.bytes()
+            + self.special_set.bytes()
+            + 4 * (lists + self.corner_tags.capacity() + source) as u64
     }
 
     #[inline(always)]

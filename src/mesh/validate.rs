@@ -1,6 +1,6 @@
 //! One function that checks every invariant a [`Mesh`] relies on.
 
-use super::Mesh;
+use super::{Mesh, VertexSet};
 use crate::base::{Error, ErrorKind, NONE, Result};
 
 impl Mesh {
@@ -64,6 +64,8 @@ impl Mesh {
         ensure(self.rim.iter().copied().eq(open), "rim", self.rim.len())?;
         let special = (0..self.start.len() as u32).filter(|&v| !self.is_regular(v));
         ensure(self.special.iter().copied().eq(special), "special", self.special.len())?;
+        let set = VertexSet::new(self.start.len(), &self.special);
+        ensure(self.special_set == set, "set of special vertices", self.special.len())?;
         let sorted = self.corner_tags.windows(2).all(|pair| pair[0] < pair[1]);
         let tagged = self.corner_tags.iter().all(|&v| self.on_rim(v));
         ensure(sorted && tagged, "corner tags", self.corner_tags.len())
