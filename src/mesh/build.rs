@@ -1,7 +1,7 @@
 //! From a polygon soup to a [`Mesh`]: checks, order, twins, fans.
 
 use super::pairing::{BadEdge, Pairing, pair};
-use super::{Defect, Defects, Layout, Mesh, VertexSet, anchor, cut};
+use super::{Defect, Defects, Layout, Mesh, Near, VertexSet, anchor, cut};
 use crate::base::{Context, Element, Error, ErrorKind, NONE, Result};
 
 /// What to do with edges and vertices that are not manifold.
@@ -207,6 +207,7 @@ impl Soup {
             rim: Vec::new(),
             special: Vec::new(),
             special_set: VertexSet::default(),
+            near: Near::default(),
             corner_tags: Vec::new(),
             anchored: false,
             face_source: self.source,
@@ -251,6 +252,7 @@ impl Mesh {
         let vertices = 0..self.start.len() as u32;
         self.special = vertices.filter(|&v| !self.is_regular(v)).collect();
         self.special_set = VertexSet::new(self.start.len(), &self.special);
+        self.near = Near::of(self);
     }
 
     /// True for an interior vertex of valence 4.

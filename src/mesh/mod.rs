@@ -10,9 +10,11 @@
 //! | `start` | vertex | first corner of its fan, or [`NONE`] if isolated |
 //! | `rim` | – | the corners whose outgoing edge is a boundary edge |
 //! | `special` | – | the vertices that are not interior of valence 4, as list and set |
+//! | `near` | face | which corners lead their edge and start a fan |
 //!
-//! The fan of an interior vertex starts at its smallest corner, that of a
-//! boundary vertex at the corner whose outgoing edge is the boundary edge.
+//! The fan of a boundary vertex starts at the corner whose outgoing edge is the
+//! boundary edge; that of an interior vertex at its smallest corner, or, in a
+//! split mesh, at the child of the corner that the vertex comes from.
 //! [`Mesh::validate`] checks every one of these statements.
 
 mod anchor;
@@ -20,6 +22,7 @@ mod build;
 mod cut;
 mod defect;
 mod layout;
+pub(crate) mod near;
 mod pairing;
 mod ring;
 mod survey;
@@ -28,6 +31,7 @@ mod validate;
 pub use build::{BuildOptions, Built, NonManifold, build};
 pub use defect::{Defect, Defects};
 pub(crate) use layout::{Layout, turn_in_quad};
+pub(crate) use near::Near;
 pub(crate) use ring::{QuadWalker, VertexSet};
 pub use survey::Survey;
 
@@ -49,6 +53,7 @@ pub struct Mesh {
     pub(crate) rim: Vec<u32>,
     pub(crate) special: Vec<u32>,
     pub(crate) special_set: VertexSet,
+    pub(crate) near: Near,
     pub(crate) corner_tags: Vec<u32>,
     pub(crate) anchored: bool,
     /// Input face of each face, where the order was changed.

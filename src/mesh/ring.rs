@@ -58,8 +58,9 @@ impl<'a> QuadWalker<'a> {
         Self { mesh, first, count: mesh.layout.corners() - first, special }
     }
 
+    /// True if the corner belongs to a quad.
     #[inline(always)]
-    fn holds(self, corner: u32) -> bool {
+    pub(crate) fn holds(self, corner: u32) -> bool {
         // NONE and irregular corners both fail this one comparison.
         corner.wrapping_sub(self.first) < self.count
     }

@@ -4,9 +4,9 @@
 //! once, by whoever owns its place, from the parent's arrays.
 
 use super::corner_split::{Child, CornerSplit};
-use super::faces::Quads;
 use crate::base::{Context, NONE, Result};
-use crate::mesh::{Mesh, QuadWalker, VertexSet};
+use crate::mesh::near::{LEADS, LEADS_ALL, LEADS_NONE, LEADS_OUTER, STARTS};
+use crate::mesh::{Mesh, Near, QuadWalker, VertexSet};
 
 /// Steps around a vertex that are cheaper than a search in the list of hubs.
 const SHORT_FAN: u32 = 16;
@@ -18,6 +18,7 @@ pub(crate) struct Recycled {
     twin: Vec<u32>,
     start: Vec<u32>,
     place: Vec<u32>,
+    near: Vec<u8>,
 }
 
 impl Recycled {
@@ -26,24 +27,26 @@ impl Recycled {
         self.vert = mesh.vert;
         self.twin = mesh.twin;
         self.start = mesh.start;
+        self.near = mesh.near.quads;
     }
 
     /// Bytes held.
     pub(crate) fn bytes(&self) -> u64 {
         let lists = [&self.vert, &self.twin, &self.start, &self.place];
-        4 * lists.iter().map(|list| list.capacity() as u64).sum::<u64>()
+        let words: usize = lists.iter().map(|list| list.capacity()).sum();
+        (4 * words + self.near.capacity()) as u64
     }
 }
 
 /// An array of exactly `len` entries in re-used memory; entries keep whatever
 /// they held, since every one of them is about to be written.
-fn sized(list: &mut Vec<u32>, len: usize) -> Vec<u32> {
+fn sized<T: Copy>(list: &mut Vec<T>, zero: T, len: usize) -> Vec<T> {
     let mut list = std::mem::take(list);
     if list.capacity() < len {
         // Zeroed pages straight from the system, and no copy of the old entries.
-        return vec![0; len];
+        return vec![zero; len];
     }
-    list.resize(len, 0);
+    list.resize(len, zero);
     list
 }
 
@@ -55,26 +58,33 @@ impl CornerSplit<'_> {
         anchored: bool,
         memory: &mut Recycled,
     ) -> Result<Mesh> {
-        let mut vert = sized(&mut memory.vert, self.counts.corners as usize);
+        let corners = self.counts.corners as usize;
+        let quads = (self.counts.faces - self.counts.irregular_faces) as usize;
+        let mut vert = sized(&mut memory.vert, 0, corners);
         self.write_faces(context, &mut vert)?;
-        let links = Links::new(self, context, sized(&mut memory.place, self.parent.corners()))?;
-        let mut twin = sized(&mut memory.twin, self.counts.corners as usize);
-        let mut start = sized(&mut memory.start, self.counts.vertices as usize);
-        links.write(context, &mut twin, &mut start)?;
-        let (rim, special) = (links.rim(), self.special());
-        memory.place = links.place;
-        Ok(Mesh {
+        let places = self.near.irregular.len() + self.near.quads.len();
+        let links = Links::new(self, context, sized(&mut memory.place, 0, places))?;
+        let mut child = Mesh {
             layout: self.child_layout(),
             vert,
-            twin,
-            start,
-            rim,
-            special_set: VertexSet::new(self.counts.vertices as usize, &special),
-            special,
+            twin: sized(&mut memory.twin, 0, corners),
+            start: sized(&mut memory.start, 0, self.counts.vertices as usize),
+            rim: Vec::new(),
+            special: self.special(),
+            special_set: VertexSet::default(),
+            near: Near {
+                irregular: vec![0; self.quads as usize],
+                quads: sized(&mut memory.near, 0, quads),
+            },
             corner_tags: Vec::new(),
             anchored,
             face_source: None,
-        })
+        };
+        child.special_set = VertexSet::new(child.start.len(), &child.special);
+        links.write(context, &mut child)?;
+        child.rim = links.rim();
+        memory.place = links.place;
+        Ok(child)
     }
 
     /// The children that are not interior vertices of valence 4.
@@ -96,7 +106,8 @@ impl CornerSplit<'_> {
 /// Where the children of a corner are.
 struct Links<'a, 'b> {
     split: &'b CornerSplit<'a>,
-    /// How many child quads precede those of each corner.
+    /// How many child quads precede those of each irregular corner, then how
+    /// many precede each quad's.
     place: Vec<u32>,
     /// The first corner of each irregular vertex face, by vertex.
     irregular: Vec<(u32, u32)>,
@@ -129,31 +140,52 @@ impl<'a, 'b> Links<'a, 'b> {
         self.split.quads + 4 * number
     }
 
+    /// How many child quads precede those of a quad, given its number.
+    #[inline(always)]
+    fn before(&self, quad: u32) -> u32 {
+        self.place[(self.split.vertex_faces + quad) as usize]
+    }
+
     /// The child of a corner in the child of its face.
     #[inline(always)]
     fn in_face(&self, corner: u32) -> u32 {
-        let first = self.split.vertex_faces;
-        if corner < first {
-            return corner;
+        match corner.checked_sub(self.split.vertex_faces) {
+            None => corner,
+            Some(local) => self.quad(self.before(local / 4)) + (local & 3),
         }
-        let side = (corner - first) & 3;
-        // The face's child stands right before those of its first corner.
-        self.quad(self.place[(corner - side) as usize] - 1) + side
     }
 
     /// The first corner of the quad of an edge, given the corner that leads it.
     #[inline(always)]
-    fn edge_quad(&self, leader: u32, starts: bool) -> u32 {
-        self.quad(self.place[leader as usize] + u32::from(starts))
+    fn edge_quad(&self, leader: u32) -> u32 {
+        let near = &self.split.near;
+        let Some(local) = leader.checked_sub(self.split.vertex_faces) else {
+            let starts = near.irregular[leader as usize] & STARTS != 0;
+            return self.quad(self.place[leader as usize] + u32::from(starts));
+        };
+        let bits = near.quads[local as usize / 4];
+        let below = bits & ((LEADS << (local & 3)) - LEADS);
+        self.quad(self.before(local / 4) + 1 + count(bits >> 4) + count(below))
+    }
+
+    /// The first corner of the quad of a vertex, given the start of its fan.
+    #[inline(always)]
+    fn vertex_quad(&self, start: u32) -> u32 {
+        let Some(local) = start.checked_sub(self.split.vertex_faces) else {
+            return self.quad(self.place[start as usize]);
+        };
+        let bits = self.split.near.quads[local as usize / 4];
+        let below = (bits >> 4) & ((1 << (local & 3)) - 1);
+        self.quad(self.before(local / 4) + 1 + count(below))
     }
 
     /// The inner corner of a corner in the quad of its edge.
+    #[inline(always)]
     fn inner(&self, corner: u32) -> u32 {
-        let twin = self.split.parent.twin[corner as usize];
-        if twin < corner {
-            self.edge_quad(twin, self.split.starts_quad(twin)) + 2
+        if self.split.near.corner(self.split.vertex_faces, corner) & LEADS != 0 {
+            self.edge_quad(corner)
         } else {
-            self.edge_quad(corner, self.split.starts_quad(corner))
+            self.edge_quad(self.split.parent.twin[corner as usize]) + 2
         }
     }
 
@@ -166,7 +198,7 @@ impl<'a, 'b> Links<'a, 'b> {
     fn vertex_face(&self, vertex: u32) -> u32 {
         let start = self.split.parent.start[vertex as usize];
         if start != NONE && self.split.has_quad(vertex) {
-            return self.quad(self.place[start as usize]);
+            return self.vertex_quad(start);
         }
         let listed = self.irregular.binary_search_by_key(&vertex, |&(v, _)| v);
         listed.map_or(NONE, |i| self.irregular[i].1)
@@ -200,43 +232,38 @@ impl<'a, 'b> Links<'a, 'b> {
         self.hubs[hub.expect("long fans are listed")].1
     }
 
-    /// Writes the twins of all child corners and the fan starts of all children.
-    fn write(&self, context: &Context, twins: &mut [u32], starts: &mut [u32]) -> Result<()> {
+    /// Writes twins, fan starts and near bits of the child.
+    fn write(&self, context: &Context, child: &mut Mesh) -> Result<()> {
         let split = self.split;
         let first = split.vertex_faces;
-        let (irregular, quads) = twins.split_at_mut(split.quads as usize);
-        let (faces, mut vertex_faces) = irregular.split_at_mut(first as usize);
-        for (slot, corner) in faces.iter_mut().zip(0..) {
-            *slot = self.across_face(corner);
-        }
-        for &(v, size) in &split.irregular {
-            let (face, rest) = vertex_faces.split_at_mut(size as usize);
-            self.write_fan_twins(v, face);
-            vertex_faces = rest;
-        }
-        let (mut starts, added) = starts.split_at_mut(split.parent.corners());
-        let mut quads = quads.as_chunks_mut::<4>().0;
+        self.write_irregular(child);
+        let mut twins = child.twin[split.quads as usize..].as_chunks_mut::<4>().0;
+        let mut near = &mut child.near.quads[..];
+        let (mut starts, added) = child.start.split_at_mut(split.parent.corners());
+        let special = &child.special_set;
         let mut parts = Vec::with_capacity(split.chunks.len());
         for chunk in &split.chunks {
-            let (out, later) = quads.split_at_mut(chunk.quads.len());
-            let (start, rest) = starts.split_at_mut(chunk.corners.len());
-            parts.push((chunk.corners.clone(), out, start));
-            (quads, starts) = (later, rest);
+            let (twin, more_twins) = twins.split_at_mut(chunk.quads.len());
+            let (bits, more_near) = near.split_at_mut(chunk.quads.len());
+            let (start, more_starts) = starts.split_at_mut(chunk.corners.len());
+            parts.push((chunk.corners.clone(), Part { twins: twin, near: bits, place: 0 }, start));
+            (twins, near, starts) = (more_twins, more_near, more_starts);
         }
-        context.for_each(parts, |(corners, out, starts)| {
-            let mut out = Quads { out, place: 0 };
-            if corners.start < first {
+        context.for_each(parts, |(corners, mut out, starts)| {
+            if corners.end <= first {
                 for (c, start) in corners.zip(starts) {
-                    *start = self.write_corner_twins(c, &mut out);
+                    *start = self.child_start(c);
+                    self.push_vertex(c, &mut out);
+                    self.push_edge(c, &mut out);
                 }
                 return;
             }
             let walker = QuadWalker::new(split.parent);
-            for (c, starts) in corners.step_by(4).zip(starts.as_chunks_mut::<4>().0) {
-                if !self.write_regular_twins(walker, c, &mut out, starts) {
-                    out.push(std::array::from_fn(|i| self.across_face(c + i as u32)), true);
-                    *starts =
-                        std::array::from_fn(|i| self.write_corner_twins(c + i as u32, &mut out));
+            let near = &split.near.quads[(corners.start - first) as usize / 4..];
+            let quads = near.iter().zip(starts.as_chunks_mut::<4>().0);
+            for (c, (&near, starts)) in corners.step_by(4).zip(quads) {
+                if !self.write_regular(walker, c, near, &mut out, starts) {
+                    self.write_quad(c, special, &mut out, starts);
                 }
             }
         })?;
@@ -246,90 +273,130 @@ impl<'a, 'b> Links<'a, 'b> {
         Ok(())
     }
 
-    /// The twins of all children of a regular quad, and the fan starts of its
-    /// corners; false if it is no regular quad.
+    /// The children that are no quads.
+    fn write_irregular(&self, child: &mut Mesh) {
+        let first = self.split.vertex_faces;
+        for c in 0..first {
+            child.twin[c as usize] = self.across_face(c);
+            child.near.irregular[c as usize] = self.face_bits(c, &child.special_set);
+        }
+        let mut out = &mut child.twin[first as usize..];
+        for &(v, size) in &self.split.irregular {
+            let (face, rest) = out.split_at_mut(size as usize);
+            self.write_fan_twins(v, face);
+            out = rest;
+        }
+    }
+
+    /// The near bits of a corner in the child of its face: it leads the edge if
+    /// that is interior, and its child's fan starts there.
+    fn face_bits(&self, corner: u32, special: &VertexSet) -> u8 {
+        let leads = self.across_face(corner) != NONE;
+        u8::from(leads) * LEADS | u8::from(!special.contains(corner)) * STARTS
+    }
+
+    /// All children near any quad, corner by corner.
+    #[cold]
+    #[inline(never)]
+    fn write_quad(&self, corner: u32, special: &VertexSet, out: &mut Part, starts: &mut [u32; 4]) {
+        let own: [u32; 4] = std::array::from_fn(|i| corner + i as u32);
+        let bits = own.map(|c| self.face_bits(c, special));
+        let bits = (0..4).fold(0, |sum, i| sum | bits[i] << i);
+        out.push(own.map(|c| self.across_face(c)), bits);
+        own.iter().for_each(|&c| self.push_vertex(c, out));
+        own.iter().for_each(|&c| self.push_edge(c, out));
+        *starts = own.map(|c| self.child_start(c));
+    }
+
+    /// All children near a regular quad; false if it is none.
     #[inline(always)]
-    fn write_regular_twins(
+    fn write_regular(
         &self,
         walker: QuadWalker,
         corner: u32,
-        out: &mut Quads,
+        near: u8,
+        out: &mut Part,
         starts: &mut [u32; 4],
     ) -> bool {
         let Some(ring) = walker.ring(corner) else { return false };
         let start = walker.vertices(corner).map(|v| self.split.parent.start[v as usize]);
         let own = |i: usize| corner + i as u32;
-        // The inner corner of each edge; its quad stands with the leader.
+        let leads = |i: usize| near & (LEADS << i) != 0;
+        let face = self.quad(self.before((corner - self.split.vertex_faces) / 4));
+        // The first quads of the vertices and of the edges here.
+        let (vertices, edges) = (face + 4, face + 4 + 4 * count(near >> 4));
+        let below = |bits: u8, i: usize| 4 * count(bits & ((1 << i) - 1));
         let inner: [u32; 4] = std::array::from_fn(|i| {
-            let twin = ring.across[i];
-            if twin < own(i) {
-                // The twin starts at the next vertex.
-                self.edge_quad(twin, start[(i + 1) % 4] == twin) + 2
+            if leads(i) { edges + below(near & 15, i) } else { self.edge_quad(ring.across[i]) + 2 }
+        });
+        out.push(inner, LEADS_ALL);
+        // The first corner of the face of each vertex, and the corner's place.
+        let base: [u32; 4] = std::array::from_fn(|i| {
+            if start[i] == own(i) {
+                vertices + below(near >> 4, i)
             } else {
-                self.edge_quad(own(i), start[i] == own(i))
+                self.vertex_quad(start[i])
             }
         });
-        // The corner of each corner in the face of its vertex, and the one before.
-        let vertex: [[u32; 2]; 4] = std::array::from_fn(|i| {
-            let around = ring.across[(i + 3) % 4];
-            let place = if own(i) == start[i] {
+        let place = |i: usize| {
+            if start[i] == own(i) {
                 0
-            } else if around == start[i] {
+            } else if start[i] == ring.across[(i + 3) % 4] {
                 3
-            } else if walker.turn(ring.across[i], 1) == start[i] {
-                1
             } else {
-                2
-            };
-            let base = self.quad(self.place[start[i] as usize]);
-            [base + place, base + (place + 3) % 4]
-        });
-        let face = self.quad(self.place[corner as usize] - 1);
-        out.push(inner, true);
-        for i in 0..4 {
-            let (c, twin, before) = (own(i), ring.across[i], inner[(i + 3) % 4]);
-            if start[i] == c {
-                // The outer corners of the three other edges around the vertex:
-                // those of the edge before belong to its other side.
-                let beyond = self.outer_of(walker, ring.beyond[i]);
-                let clockwise = self.outer_of(walker, walker.turn(twin, 1));
-                out.push([(before ^ 2) + 1, beyond, clockwise, inner[i] + 1], true);
+                2 - u32::from(start[i] == walker.turn(ring.across[i], 1))
             }
-            if c < twin {
-                let across = self.in_face(twin);
-                out.push([face + i as u32, vertex[i][1], across, vertex[(i + 1) % 4][0]], true);
-            }
-            starts[i] = (face + i as u32).min(before).min(vertex[i][0]).min(inner[i] + 1);
+        };
+        for i in (0..4).filter(|&i| near & (STARTS << i) != 0) {
+            // The outer corners of the edges around the vertex; the other side
+            // of the edge before has the other half of its quad.
+            let beyond = self.inner(ring.beyond[i]) + 1;
+            let clockwise = self.inner(walker.turn(ring.across[i], 1)) + 1;
+            out.push([(inner[(i + 3) % 4] ^ 2) + 1, beyond, clockwise, inner[i] + 1], LEADS_NONE);
         }
+        for i in (0..4).filter(|&i| leads(i)) {
+            let next = (i + 1) % 4;
+            let before = base[i] + (place(i) + 3) % 4;
+            let across = self.in_face(ring.across[i]);
+            let twins = [face + i as u32, before, across, base[next] + place(next)];
+            out.push(twins, LEADS_OUTER);
+        }
+        *starts = std::array::from_fn(|i| face + i as u32);
         true
     }
 
-    /// The outer corner of a corner at a vertex that is interior of valence 4.
-    #[inline(always)]
-    fn outer_of(&self, walker: QuadWalker, corner: u32) -> u32 {
-        let parent = self.split.parent;
-        let twin = parent.twin[corner as usize];
-        let (leader, side) = if twin < corner { (twin, 3) } else { (corner, 1) };
-        let start = parent.start[walker.mesh.vert[leader as usize] as usize];
-        let starts = start == leader && self.split.has_quad(parent.vert[leader as usize]);
-        self.edge_quad(leader, starts) + side
+    /// The quad of the vertex whose fan starts at a corner, if it does.
+    fn push_vertex(&self, corner: u32, out: &mut Part) {
+        if self.split.starts_quad(corner) {
+            let mut twins = [0; 4];
+            self.write_fan_twins(self.split.parent.vert[corner as usize], &mut twins);
+            out.push(twins, LEADS_NONE);
+        }
     }
 
-    /// The twins of the quads near any corner; returns the fan start of its child.
-    #[cold]
-    #[inline(never)]
-    fn write_corner_twins(&self, corner: u32, out: &mut Quads) -> u32 {
+    /// The quad of the edge that a corner leads, if it does.
+    fn push_edge(&self, corner: u32, out: &mut Part) {
+        if !self.split.leads_quad(corner) {
+            return;
+        }
+        let (own, twins) = (self.edge_quad(corner), self.edge_twins(corner));
+        // The outer corners lead to the vertex faces. At a vertex of valence 2
+        // two of them meet and the smaller one leads.
+        let leads = |i: u32| {
+            let twin = twins[i as usize];
+            twin != NONE && (own + i < twin || !self.is_outer(corner, i, twin))
+        };
+        let bits = u8::from(leads(1)) << 1 | u8::from(leads(3)) << 3;
+        out.push(twins, bits);
+    }
+
+    /// True if the twin of an edge quad's corner 1 or 3 is an outer corner too:
+    /// the vertex is interior of valence 2.
+    fn is_outer(&self, corner: u32, side: u32, twin: u32) -> bool {
         let parent = self.split.parent;
-        let v = parent.vert[corner as usize];
-        if self.split.starts_quad(corner) {
-            let mut quad = [0; 4];
-            self.write_fan_twins(v, &mut quad);
-            out.push(quad, true);
-        }
-        if self.split.leads_quad(corner) {
-            out.push(self.edge_twins(corner), true);
-        }
-        self.child_start(corner)
+        let at = if side == 1 { corner } else { parent.next(corner) };
+        let v = parent.vert[at as usize];
+        twin != NONE && self.vertex_face(v) == NONE && !parent.on_rim(v)
     }
 
     /// The twin of a corner in the child of its face.
@@ -391,8 +458,8 @@ impl<'a, 'b> Links<'a, 'b> {
         out[faces] = self.inner(incoming) + 3;
     }
 
-    /// The start of the fan of a corner's child: its smallest corner, or the one
-    /// that leaves along the boundary.
+    /// The start of the fan of a corner's child: in the child of the face, or
+    /// where the boundary begins.
     fn child_start(&self, corner: u32) -> u32 {
         let parent = self.split.parent;
         let own = self.in_face(corner);
@@ -400,8 +467,7 @@ impl<'a, 'b> Links<'a, 'b> {
             let open = parent.twin[corner as usize] == NONE;
             return if open { own } else { self.outer(corner) };
         }
-        let before = self.inner(parent.prev(corner));
-        own.min(before).min(self.in_vertex_face(corner)).min(self.outer(corner))
+        own
     }
 
     /// The start of the fan of a child that is no corner of the parent.
@@ -443,22 +509,54 @@ impl<'a, 'b> Links<'a, 'b> {
     }
 }
 
-/// Counts the child quads before each corner's own.
+/// Twins and near bits being written one quad after the other.
+struct Part<'o> {
+    twins: &'o mut [[u32; 4]],
+    near: &'o mut [u8],
+    place: usize,
+}
+
+impl Part<'_> {
+    #[inline(always)]
+    fn push(&mut self, twins: [u32; 4], near: u8) {
+        if let (Some(slot), Some(bits)) =
+            (self.twins.get_mut(self.place), self.near.get_mut(self.place))
+        {
+            (*slot, *bits) = (twins, near);
+            self.place += 1;
+        }
+    }
+}
+
+/// The number of bits of four.
+#[inline(always)]
+fn count(bits: u8) -> u32 {
+    const COUNTS: u64 = 0x4332_3221_3221_2110;
+    (COUNTS >> (4 * u32::from(bits & 15)) & 15) as u32
+}
+
+/// Counts the child quads before each irregular corner's own and each quad's.
 fn number_quads(split: &CornerSplit, context: &Context, place: &mut [u32]) -> Result<()> {
+    let first = split.vertex_faces;
+    let (irregular, quads) = place.split_at_mut(first as usize);
+    let mut number = 0;
+    for (slot, bits) in irregular.iter_mut().zip(&split.near.irregular) {
+        *slot = number;
+        number += bits.count_ones();
+    }
     let mut parts = Vec::with_capacity(split.chunks.len());
-    let mut rest = place;
-    for chunk in &split.chunks {
-        let (part, later) = rest.split_at_mut(chunk.corners.len());
+    let mut rest = quads;
+    for chunk in split.chunks.iter().filter(|chunk| chunk.corners.start >= first) {
+        let (part, later) = rest.split_at_mut(chunk.corners.len() / 4);
         parts.push((chunk, part));
         rest = later;
     }
     context.for_each(parts, |(chunk, part)| {
         let mut number = chunk.quads.start;
-        let first = split.vertex_faces;
-        for (c, slot) in chunk.corners.clone().zip(part) {
-            number += u32::from(c >= first && (c - first).is_multiple_of(4));
+        let near = &split.near.quads[(chunk.corners.start - first) as usize / 4..];
+        for (slot, bits) in part.iter_mut().zip(near) {
             *slot = number;
-            number += u32::from(split.starts_quad(c)) + u32::from(split.leads_quad(c));
+            number += 1 + count(bits & 15) + count(bits >> 4);
         }
     })
 }

@@ -10,11 +10,12 @@
 //!
 //! Child faces that are no quads come first: the children of irregular parent
 //! faces, in order, then the irregular vertex faces, by vertex. The quads follow,
-//! near their parents: for each parent face in order its own child, if it is a
-//! quad; then for each of its corners in order the quad of the vertex whose fan
-//! starts at that corner, and the quad of the edge that the corner leads. A
-//! corner leads its edge if its twin has a larger number (or, where boundary
-//! edges get a quad, if it has no twin).
+//! near their parents. For each irregular parent face, at each of its corners in
+//! order: the quad of the vertex whose fan starts there, the quad of the edge
+//! that the corner leads. Then for each quad of the parent: its own child, the
+//! quads of the vertices whose fans start at its corners, the quads of the edges
+//! that its corners lead. Which corner leads an edge is explained in
+//! `mesh/near.rs`; a boundary edge, where it gets a quad, is led by its corner.
 //!
 //! * The child of a face has the parent's corners as vertices, same cycle.
 //! * The quad of an edge led by `c` with twin `g` is (next c, c, next g, g); its
@@ -27,14 +28,18 @@
 //!   fan, β of the incoming one, κ if there is one.
 //!
 //! So every child's place follows from its parent's corner and one running
-//! total per level. Children next to each other on the surface stay next to each
+//! total per level; in a split mesh, whose faces are of three kinds only, the
+//! child of a face has nine children near it, the quad of an edge three, the
+//! quad of a vertex one. Children next to each other on the surface stay next to each
 //! other in memory at every depth: ordering all face children before all edge
 //! quads and those before all vertex quads made a deep refinement two to three
 //! times slower, each level tripling the places that are read at once.
 
 use super::counts::{Counts, irregular_rim_faces};
 use crate::base::{Context, Error, ErrorKind, NONE, Result};
-use crate::mesh::{Layout, Mesh};
+use crate::mesh::near::{LEADS, STARTS};
+use crate::mesh::{Layout, Mesh, Near};
+use std::borrow::Cow;
 use std::ops::Range;
 
 /// Whether and where a split lays an anchor row.
@@ -101,6 +106,8 @@ pub(crate) struct CornerSplit<'a> {
     pub(super) vertex_faces: u32,
     pub(super) quads: u32,
     pub(super) chunks: Vec<FaceChunk>,
+    /// Which child quads stand near each corner.
+    pub(super) near: Cow<'a, Near>,
 }
 
 /// A run of parent faces and the child quads that stand near them.
@@ -135,7 +142,9 @@ impl<'a> CornerSplit<'a> {
             vertex_faces,
             quads,
             chunks: Vec::new(),
+            near: Cow::Borrowed(&parent.near),
         };
+        split.frame_near();
         split.chunks = split.cut(context)?;
         Ok(split)
     }
@@ -143,59 +152,63 @@ impl<'a> CornerSplit<'a> {
     /// Cuts the parent's faces into chunks, irregular ones and quads apart, and
     /// counts the child quads of each.
     fn cut(&self, context: &Context) -> Result<Vec<FaceChunk>> {
-        let layout = &self.parent.layout;
         let first = self.vertex_faces;
-        let corners = layout.corners();
+        let corners = self.parent.layout.corners();
         let all = (self.counts.faces - self.counts.irregular_faces) as u32;
+        let Near { irregular, quads } = &*self.near;
         if context.threads() == 1 {
             // One thread needs no counts of the quads, which are most of all.
-            let before = self.quads_near(0..first);
+            let before = quads_near(irregular);
             let irregular = FaceChunk { corners: 0..first, quads: 0..before };
             return Ok(vec![irregular, FaceChunk { corners: first..corners, quads: before..all }]);
         }
-        let irregular = context.chunks(first as usize).into_iter();
-        let quads = context.chunks((corners - first) as usize / 4).into_iter();
-        let quads = quads.map(|q| first + 4 * q.start as u32..first + 4 * q.end as u32);
-        let chunks: Vec<_> = irregular.map(|r| r.start as u32..r.end as u32).chain(quads).collect();
-        let counts = context.map(chunks.clone(), |range| self.quads_near(range))?;
+        let irregular_chunks = context.chunks(irregular.len());
+        let mut counts =
+            context.map(irregular_chunks.clone(), |range| quads_near(&irregular[range]))?;
+        let quad_chunks = context.chunks(quads.len());
+        counts
+            .extend(context.map(quad_chunks.clone(), |range| {
+                range.len() as u32 + quads_near(&quads[range])
+            })?);
         let mut place = 0;
-        Ok(chunks
-            .into_iter()
-            .zip(counts)
-            .map(|(corners, n)| {
-                place += n;
-                FaceChunk { corners, quads: place - n..place }
-            })
-            .collect())
+        let irregular = irregular_chunks.into_iter().map(|r| r.start as u32..r.end as u32);
+        let quads = quad_chunks.into_iter();
+        let quads = quads.map(|r| first + 4 * r.start as u32..first + 4 * r.end as u32);
+        let chunks = irregular.chain(quads).zip(counts).map(|(corners, n)| {
+            place += n;
+            FaceChunk { corners, quads: place - n..place }
+        });
+        Ok(chunks.collect())
     }
 
-    /// The number of child quads that stand near a range of corners.
-    fn quads_near(&self, corners: Range<u32>) -> u32 {
-        let faces = if corners.end <= self.vertex_faces { 0 } else { corners.len() as u32 / 4 };
-        let near = |c| u32::from(self.starts_quad(c)) + u32::from(self.leads_quad(c));
-        faces + corners.map(near).sum::<u32>()
+    /// Adds the quads of boundary edges and boundary vertices.
+    fn frame_near(&mut self) {
+        if !self.lays_anchor() || self.parent.is_closed() {
+            return;
+        }
+        let first = self.vertex_faces;
+        for &c in &self.parent.rim {
+            // The fan of a boundary vertex starts at its rim corner.
+            let v = self.parent.vert[c as usize];
+            let quad = self.without_quad.binary_search(&v).is_err();
+            self.near.to_mut().set(first, c, LEADS | if quad { STARTS } else { 0 });
+        }
     }
 
     /// True if the fan of a vertex that gets a quad starts at the corner.
-    #[inline(always)]
     pub(super) fn starts_quad(&self, corner: u32) -> bool {
-        let v = self.parent.vert[corner as usize];
-        self.parent.start[v as usize] == corner && self.has_quad(v)
-    }
-
-    /// True if the vertex gets a quad.
-    #[inline(always)]
-    pub(super) fn has_quad(&self, vertex: u32) -> bool {
-        !self.parent.special_set.contains(vertex)
-            || self.without_quad.binary_search(&vertex).is_err()
+        self.near.corner(self.vertex_faces, corner) & STARTS != 0
     }
 
     /// True if the corner leads an edge that gets a quad.
-    #[inline(always)]
     pub(super) fn leads_quad(&self, corner: u32) -> bool {
-        let twin = self.parent.twin[corner as usize];
-        // NONE is the largest index, so one comparison lets boundaries pass.
-        (corner < twin) & ((twin != NONE) | self.lays_anchor())
+        self.near.corner(self.vertex_faces, corner) & LEADS != 0
+    }
+
+    /// True if the vertex gets a quad.
+    pub(super) fn has_quad(&self, vertex: u32) -> bool {
+        !self.parent.special_set.contains(vertex)
+            || self.without_quad.binary_search(&vertex).is_err()
     }
 
     pub(crate) fn parent(&self) -> &'a Mesh {
@@ -275,4 +288,9 @@ fn vertex_faces(parent: &Mesh, anchor: &Anchor) -> (Vec<(u32, u32)>, Vec<u32>) {
         }
     }
     (irregular, without_quad)
+}
+
+/// The number of child quads of edges and vertices near some corners.
+fn quads_near(bits: &[u8]) -> u32 {
+    bits.iter().map(|bits| bits.count_ones()).sum()
 }

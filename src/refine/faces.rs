@@ -1,8 +1,9 @@
 //! The faces of the split mesh, written in order.
 
 use super::corner_split::CornerSplit;
-use crate::base::{Context, Result};
+use crate::base::{Context, NONE, Result};
 use crate::mesh::QuadWalker;
+use crate::mesh::near::{LEADS, LEADS_ALL, LEADS_NONE, LEADS_OUTER, STARTS};
 
 impl CornerSplit<'_> {
     /// Writes the size of every child face.
@@ -41,58 +42,50 @@ impl CornerSplit<'_> {
             parts.push((chunk.corners.clone(), part));
             rest = later;
         }
+        let first = self.vertex_faces;
         context.for_each(parts, |(corners, out)| {
             let mut out = Quads { out, place: 0 };
-            if corners.start < self.vertex_faces {
-                corners.for_each(|c| self.write_corner_quads(c, &mut out));
+            if corners.end <= first {
+                for c in corners {
+                    self.write_vertex_quad(c, &mut out);
+                    self.write_edge_quad(c, &mut out);
+                }
                 return;
             }
             let walker = QuadWalker::new(self.parent);
-            for c in corners.step_by(4) {
+            let near = &self.near.quads[(corners.start - first) as usize / 4..];
+            for (c, &near) in corners.step_by(4).zip(near) {
                 out.push([c, c + 1, c + 2, c + 3], true);
-                if !self.write_regular_quads(walker, c, &mut out) {
-                    (c..c + 4).for_each(|c| self.write_corner_quads(c, &mut out));
+                if !write_regular_quads(walker, c, near, &mut out) {
+                    (c..c + 4).for_each(|c| self.write_vertex_quad(c, &mut out));
+                    (c..c + 4).for_each(|c| self.write_edge_quad(c, &mut out));
                 }
             }
         })
     }
 
-    /// The quads of the vertex that a corner starts and of the edge it leads.
+    /// The quad of the vertex whose fan starts at a corner, if it does.
     #[cold]
     #[inline(never)]
-    fn write_corner_quads(&self, corner: u32, out: &mut Quads) {
-        let parent = self.parent;
+    fn write_vertex_quad(&self, corner: u32, out: &mut Quads) {
         if self.starts_quad(corner) {
             let mut quad = [0; 4];
-            self.write_vertex_face(parent.vert[corner as usize], &mut quad);
+            self.write_vertex_face(self.parent.vert[corner as usize], &mut quad);
             out.push(quad, true);
-        }
-        if self.leads_quad(corner) {
-            let twin = parent.twin[corner as usize];
-            let across = match twin {
-                crate::base::NONE => [self.beta(corner, false), self.beta(corner, true)],
-                _ => [parent.next(twin), twin],
-            };
-            out.push([parent.next(corner), corner, across[0], across[1]], true);
         }
     }
 
-    /// The same for all corners of a regular quad; false if it is none.
-    #[inline(always)]
-    fn write_regular_quads(&self, walker: QuadWalker, corner: u32, out: &mut Quads) -> bool {
-        let Some(ring) = walker.ring(corner) else { return false };
-        let vertices = walker.vertices(corner);
-        for i in 0..4 {
-            let (c, next) = (corner + i as u32, corner + (i as u32 + 1) % 4);
-            let (twin, around) = (ring.across[i], ring.across[(i + 3) % 4]);
-            let across = walker.turn(twin, 1);
-            // Written whether they count or not: which corner starts and leads
-            // is hard to foresee, and a store costs less than a wrong guess.
-            let starts = self.parent.start[vertices[i] as usize] == c;
-            out.push([c, around, ring.beyond[i], across], starts);
-            out.push([next, c, across, twin], c < twin);
+    /// The quad of the edge that a corner leads, if it does.
+    #[cold]
+    #[inline(never)]
+    fn write_edge_quad(&self, corner: u32, out: &mut Quads) {
+        if self.leads_quad(corner) {
+            let across = match self.parent.twin[corner as usize] {
+                NONE => [self.beta(corner, false), self.beta(corner, true)],
+                twin => [self.parent.next(twin), twin],
+            };
+            out.push([self.parent.next(corner), corner, across[0], across[1]], true);
         }
-        true
     }
 
     /// The face of a vertex: its fan, framed by β and κ on a boundary.
@@ -125,16 +118,50 @@ impl CornerSplit<'_> {
     }
 }
 
+/// The quads near a regular quad, but for its own child; false if it is none.
+#[inline(always)]
+fn write_regular_quads(walker: QuadWalker, corner: u32, near: u8, out: &mut Quads) -> bool {
+    let own = |i: usize| corner + (i as u32 & 3);
+    let edge = |i: usize, twin: u32| [own(i + 1), own(i), walker.turn(twin, 1), twin];
+    if near == LEADS_NONE {
+        return true;
+    }
+    if near == LEADS_OUTER {
+        let twins = walker.twins(corner);
+        if !walker.holds(twins[1]) || !walker.holds(twins[3]) {
+            return false;
+        }
+        out.push(edge(1, twins[1]), true);
+        out.push(edge(3, twins[3]), true);
+        return true;
+    }
+    let Some(ring) = walker.ring(corner) else { return false };
+    let vertex = |i: usize| {
+        let across = walker.turn(ring.across[i], 1);
+        [own(i), ring.across[(i + 3) % 4], ring.beyond[i], across]
+    };
+    if near == LEADS_ALL {
+        (0..4).for_each(|i| out.push(vertex(i), true));
+        (0..4).for_each(|i| out.push(edge(i, ring.across[i]), true));
+    } else {
+        // Written whether they count or not: which corners lead is hard to
+        // foresee, and a store costs less than a wrong guess.
+        (0..4).for_each(|i| out.push(vertex(i), near & (STARTS << i) != 0));
+        (0..4).for_each(|i| out.push(edge(i, ring.across[i]), near & (LEADS << i) != 0));
+    }
+    true
+}
+
 /// Quads being written one after the other.
-pub(super) struct Quads<'o> {
-    pub(super) out: &'o mut [[u32; 4]],
-    pub(super) place: usize,
+struct Quads<'o> {
+    out: &'o mut [[u32; 4]],
+    place: usize,
 }
 
 impl Quads<'_> {
     /// Writes a quad; it stays only if it counts.
     #[inline(always)]
-    pub(super) fn push(&mut self, quad: [u32; 4], counts: bool) {
+    fn push(&mut self, quad: [u32; 4], counts: bool) {
         if let Some(slot) = self.out.get_mut(self.place) {
             *slot = quad;
             self.place += usize::from(counts);

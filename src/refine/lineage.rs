@@ -62,14 +62,16 @@ impl CornerSplit<'_> {
         let irregular = self.irregular.iter().map(|&(v, _)| FaceOrigin::Vertex(v));
         let first = self.vertex_faces;
         let kept = if first == 0 { 0 } else { layout.face_of(first - 1) + 1 };
-        let quads = (0..layout.corners()).flat_map(move |c| {
-            let v = self.parent.vert[c as usize];
-            let face = c >= first && (c - first).is_multiple_of(4);
-            let face = face.then(|| FaceOrigin::Face(layout.face_of(c)));
-            let vertex = self.starts_quad(c).then_some(FaceOrigin::Vertex(v));
-            let edge = self.leads_quad(c).then_some(FaceOrigin::Edge(c));
-            [face, vertex, edge].into_iter().flatten()
+        let vertex = move |c: u32| {
+            self.starts_quad(c).then(|| FaceOrigin::Vertex(self.parent.vert[c as usize]))
+        };
+        let edge = move |c: u32| self.leads_quad(c).then_some(FaceOrigin::Edge(c));
+        let corners = (0..first).flat_map(move |c| vertex(c).into_iter().chain(edge(c)));
+        let quads = (first..layout.corners()).step_by(4).flat_map(move |c| {
+            let face = FaceOrigin::Face(layout.face_of(c));
+            let vertices = (c..c + 4).filter_map(vertex);
+            std::iter::once(face).chain(vertices).chain((c..c + 4).filter_map(edge))
         });
-        (0..kept).map(FaceOrigin::Face).chain(irregular).chain(quads)
+        (0..kept).map(FaceOrigin::Face).chain(irregular).chain(corners).chain(quads)
     }
 }
