@@ -23,6 +23,7 @@ mod cut;
 mod defect;
 mod layout;
 pub(crate) mod near;
+mod order;
 mod pairing;
 mod ring;
 mod survey;
@@ -42,8 +43,9 @@ use std::ops::Range;
 /// boundary, of any number of components.
 ///
 /// Faces whose size is not the regular one (4, or 3 if all are triangles) come
-/// first; within that rule the caller's order is kept, and
-/// [`Mesh::face_source`] leads back to it. Vertices keep their numbers.
+/// first; within that rule the caller's order is kept, unless a large mesh comes
+/// in no order at all: then its faces are put in breadth-first order. Either way
+/// [`Mesh::face_source`] leads back. Vertices keep their numbers.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Mesh {
     pub(crate) layout: Layout,
