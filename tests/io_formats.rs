@@ -228,6 +228,13 @@ fn wrong_ply_headers_are_refused_at_their_line() {
     ply("float y", "float w", Syntax, 10, "the vertices have no numbers x, y and z");
     ply("vertex_index", "points", Syntax, 10, "the faces have no list vertex_indices of integers");
     ply("uchar int", "float int", Syntax, 9, "a list whose length is a float");
+    let long = "y".repeat(256);
+    let cut = format!("'{}...' where a name is expected", "y".repeat(40));
+    ply("float y", &format!("float {long}"), Syntax, 6, &cut);
+    ply("float y", "float", Syntax, 6, "'' where a name is expected");
+    let many = (0..1022).map(|i| format!("float y{i}\nproperty ")).collect::<Vec<_>>().concat();
+    let bound = "more than 1024 elements or properties are not supported";
+    ply("float y", &format!("{many}float y"), Unsupported, 1029, bound);
     ply("end_header", "", Syntax, 11, "'0' where a PLY header keyword is expected");
 }
 
@@ -309,6 +316,19 @@ fn stl_welds_what_it_wrote() {
         assert_eq!(back.notes, ["2 facet normals were dropped", welded]);
         assert_eq!(write(&quad, Format::Stl, encoding), data);
     }
+}
+
+#[test]
+fn zeros_of_either_sign_are_the_same_corner() {
+    let facet = |a: &str, b: &str, c: &str| {
+        format!(
+            "facet normal 0 0 nan\nouter loop\nvertex {a}\nvertex {b}\nvertex {c}\nendloop\nendfacet\n"
+        )
+    };
+    let (first, second) = (facet("0 -0 0", "1 0 0", "0 1 0"), facet("-0 0 0", "0 1 -0", "1 1 0"));
+    let mesh = read(format!("SOLID\n{first}{second}endsolid\n"), Format::Stl);
+    assert_eq!(mesh.face_vertices, [0, 1, 2, 0, 2, 3]);
+    assert!(mesh.positions[0][1].is_sign_negative(), "the first spelling stays");
 }
 
 #[test]
