@@ -120,6 +120,14 @@ fn all_byte_colours_survive() {
 }
 
 #[test]
+fn whole_colours_beyond_one_are_not_taken_for_bytes() {
+    let colors = VertexColors { width: 3, values: vec![2.0, 1.0, 0.0], kind: ColorType::Float };
+    let mesh = MeshFile { positions: vec![[0.0; 3]], colors: Some(colors), ..MeshFile::default() };
+    let back = read(write(&mesh, Format::Off, Encoding::Ascii), Format::Off);
+    assert_eq!(back.colors, mesh.colors);
+}
+
+#[test]
 fn the_cow_goes_through_off_and_ply_unchanged() {
     let cow = read(COW, Format::Obj);
     for format in [Format::Off, Format::Ply] {
