@@ -192,6 +192,8 @@ fn what_is_no_obj_is_refused() {
     syntax(b"# a\rv 0 0 0\r", 1, "a carriage return without line feed");
     syntax(b"g \xe9t\xe9", 1, "'\u{fffd}t\u{fffd}' is not plain UTF-8 text");
     syntax(b"foo \0", 1, "'\\u{0}' is not plain UTF-8 text");
+    let blanks = "blanks between a backslash and the end of the line";
+    syntax(b"mtllib a\\ \nb\n", 1, blanks);
     let long = [b"v ".to_vec(), vec![b'1'; 17 << 20]].concat();
     syntax(&long, 1, "the line is longer than 16777216 bytes");
     syntax(&b"#abcdef\\\n".repeat(17 << 17), 1, "the line is longer than 16777216 bytes");

@@ -160,7 +160,7 @@ impl<'a> Parser<'a> {
     }
 
     fn smoothing(&mut self, place: Place<'_>, words: &Words<'_>) -> Result<()> {
-        match place.text(words.rest())? {
+        match name(place, words)? {
             "off" | "0" => self.smoothing.set(""),
             name => self.smoothing.set(name),
         }
@@ -168,7 +168,7 @@ impl<'a> Parser<'a> {
     }
 
     fn library(&mut self, place: Place<'_>, words: &Words<'_>) -> Result<()> {
-        let name = place.text(words.rest())?;
+        let name = name(place, words)?;
         if !name.is_empty() {
             self.mesh.material_libraries.push(name.to_owned());
         }
@@ -280,8 +280,18 @@ fn beyond(place: Place<'_>, face: usize, what: &str, written: i64, count: usize)
 }
 
 fn set(labels: &mut LabelBuilder, place: Place<'_>, words: &Words<'_>) -> Result<()> {
-    labels.set(place.text(words.rest())?);
+    labels.set(name(place, words)?);
     Ok(())
+}
+
+/// A name is all that is left of the line. One that ends with a backslash (and
+/// blanks, else the next line would belong to it) could not be written back.
+fn name<'w>(place: Place<'_>, words: &Words<'w>) -> Result<&'w str> {
+    let name = place.text(words.rest())?;
+    if name.ends_with('\\') {
+        return Err(place.syntax("blanks between a backslash and the end of the line"));
+    }
+    Ok(name)
 }
 
 fn finish(builder: LabelBuilder, into: &mut crate::io::Labels) -> u64 {
