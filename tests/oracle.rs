@@ -21,15 +21,10 @@ use support::reference::{
     hierarchy, refine, rows, step,
 };
 use support::rng::Rng;
+use support::tensor::{assert_exactly_same, grid_mesh, random_grid};
+use support::tolerance::{FOUR_DIGITS, GOLDEN, ROUNDING};
 use support::topology::Topology;
 use support::univariate::{self, Curve};
-
-/// The golden coordinates are exact to double rounding.
-const GOLDEN: f64 = 1e-12;
-/// Two orders of summation of the same doubles.
-const ROUNDING: f64 = 1e-13;
-/// The specification gives eigenvalues to four digits.
-const FOUR_DIGITS: f64 = 6e-5;
 
 const MODES: [Boundary; 3] = [Boundary::None, Boundary::Edge, Boundary::EdgeCorner];
 
@@ -111,43 +106,6 @@ fn cosine_rule_has_its_fourier_multipliers() {
 }
 
 // ------------------------------------------------------------ regular meshes
-
-/// Everything in one coordinate, so that a value names its vertex.
-fn grid_mesh(grid: &univariate::Grid, rows: Curve, columns: Curve) -> Poly<BigRational> {
-    let nought = BigRational::zero;
-    let positions = grid.iter().flatten().map(|x| [x.clone(), nought(), nought()]).collect();
-    Poly::new(positions, univariate::grid_faces(grid.len(), grid[0].len(), rows, columns))
-}
-
-/// Rank of each vertex by its first coordinate; all must differ.
-fn ranks(mesh: &Poly<BigRational>) -> Vec<usize> {
-    let mut order: Vec<usize> = (0..mesh.positions.len()).collect();
-    order.sort_by(|&a, &b| mesh.positions[a][0].cmp(&mesh.positions[b][0]));
-    let mut rank = vec![0; order.len()];
-    for (i, &v) in order.iter().enumerate() {
-        rank[v] = i;
-    }
-    let twins = |w: &[usize]| mesh.positions[w[0]][0] == mesh.positions[w[1]][0];
-    assert!(!order.windows(2).any(twins), "two vertices share a value: choose another seed");
-    rank
-}
-
-fn assert_exactly_same(actual: &Poly<BigRational>, expected: &Poly<BigRational>, what: &str) {
-    let values = |mesh: &Poly<BigRational>| {
-        let mut x: Vec<_> = mesh.positions.iter().map(|p| p[0].clone()).collect();
-        x.sort();
-        x
-    };
-    assert!(values(actual) == values(expected), "{what}: positions differ");
-    let (a, b) = (ranks(actual), ranks(expected));
-    let named = canonical_faces(&actual.faces, |v| a[v]);
-    assert!(named == canonical_faces(&expected.faces, |v| b[v]), "{what}: faces differ");
-}
-
-fn random_grid(height: usize, width: usize, rng: &mut Rng) -> univariate::Grid {
-    let mut row = || (0..width).map(|_| ratio(rng.integer(1_000_000), 1)).collect();
-    (0..height).map(|_| row()).collect()
-}
 
 /// Refines `height` by `width` points both ways and compares every level.
 fn check_tensor_product(

@@ -1,7 +1,8 @@
 //! The independent oracle of the tests: a slow reference of the averaging
 //! family, the golden cases, mesh generators and comparison.
 //!
-//! Nothing below uses the kernel, and nothing in it is written for speed: what
+//! The oracle does not use the kernel ([`kernel`], [`exact`] and [`cases`] are
+//! how tests put the two together), and nothing in it is written for speed: what
 //! the tests believe must be readable at one glance. A test binary takes it in
 //! with `mod support;`.
 //!
@@ -16,6 +17,12 @@
 //! | [`compare`] | equality of meshes up to numbering |
 //! | [`generate`] | random manifold meshes |
 //! | [`golden`] | the cases of `tests/golden` |
+//! | [`tensor`] | grids as meshes, compared exactly |
+//! | [`tolerance`] | every tolerance, with its reason |
+//! | [`cases`] | configuration of property tests, random schemes |
+//! | [`kernel`] | the kernel in the oracle's words |
+//! | [`exact`] | the kernel's weights in exact arithmetic |
+//! | [`allocation`] | the most memory that a thread holds |
 
 // Each test binary compiles this tree for itself and uses a part of it.
 #![allow(dead_code)]
@@ -23,14 +30,20 @@
 // mesh of a test comes near the range of either type.
 #![allow(clippy::cast_possible_wrap, clippy::cast_sign_loss)]
 
+pub mod allocation;
 pub mod bases;
+pub mod cases;
 pub mod compare;
+pub mod exact;
 pub mod generate;
 pub mod golden;
+pub mod kernel;
 pub mod manifold;
 pub mod number;
 pub mod poly;
 pub mod reference;
 pub mod rng;
+pub mod tensor;
+pub mod tolerance;
 pub mod topology;
 pub mod univariate;

@@ -1,0 +1,289 @@
+//! Every level's adjacency and lineage against what its faces alone say.
+//!
+//! A split computes the child's twins, fans and parents by arithmetic. Here they
+//! are found again by brute force, from the face list and from the numbering
+//! that the documentation of the corner split promises.
+
+mod support;
+
+use std::collections::HashMap;
+
+use carvel::Mesh;
+use carvel::base::NONE;
+use carvel::refine::{FaceOrigin, VertexOrigin};
+use proptest::prelude::*;
+
+use support::bases;
+use support::cases::{all_schemes, config, schemes};
+use support::compare::canonical_cycle;
+use support::generate::{Kind, tagged_meshes};
+use support::kernel::{self, Soup};
+use support::manifold::assert_manifold;
+use support::poly::Poly;
+use support::reference::{self, Boundary, FaceParent, Scheme, VertexParent};
+use support::topology::Topology;
+
+const LEVELS: u32 = 3;
+
+fn topology(mesh: &Mesh) -> Topology {
+    Topology::new(mesh.vertices(), &kernel::faces(mesh))
+}
+
+// ------------------------------------------------------------------ adjacency
+
+/// Everything a mesh says about itself, found again from its faces.
+fn check_adjacency(mesh: &Mesh) {
+    assert_manifold(mesh.vertices(), &kernel::faces(mesh));
+    let topo = topology(mesh);
+    let twins = topo.twin.iter().map(|t| t.map_or(NONE, |c| c as u32));
+    assert!(twins.eq(mesh.corner_twins().iter().copied()), "twins");
+    assert!(topo.vert.iter().copied().eq(mesh.corner_vertices().iter().map(|&v| v as usize)));
+    for f in 0..mesh.faces() {
+        assert_eq!(mesh.face_corners(f).collect::<Vec<_>>(), topo.corners_of(f), "face {f}");
+    }
+    assert_eq!(mesh.edges(), topo.edge_count());
+    assert_eq!(mesh.boundary_edges(), topo.boundary_edges().len());
+    for v in 0..mesh.vertices() {
+        assert_eq!(mesh.valence(v), topo.fans[v].len(), "faces of vertex {v}");
+        assert_eq!(mesh.is_boundary_vertex(v), topo.is_boundary(v), "vertex {v}");
+    }
+}
+
+/// Built from its faces, a level is the same mesh: its numbering is canonical.
+fn check_rebuilt(mesh: &Mesh) {
+    let faces = kernel::faces(mesh);
+    let rebuilt = Soup::new(mesh.vertices(), &faces).mesh(mesh.is_anchored());
+    rebuilt.validate().expect("a valid mesh");
+    if faces.iter().all(|f| f.len() == 3) {
+        // Lone triangles under `none`: the regular size is then 3, and 4 in a
+        // level of a hierarchy, whose faces are quads as a rule.
+        assert_eq!(rebuilt.corner_vertices(), mesh.corner_vertices());
+        assert_eq!(rebuilt.corner_twins(), mesh.corner_twins());
+        return;
+    }
+    assert!(rebuilt == *mesh, "the rebuilt mesh differs\n{mesh:?}\n{rebuilt:?}");
+}
+
+// ---------------------------------------------------------- documented numbering
+
+/// The children of a corner split, from its documentation and the parent's faces.
+struct Expected<'a> {
+    topo: &'a Topology,
+    anchored: bool,
+    kappas: Vec<usize>,
+}
+
+impl<'a> Expected<'a> {
+    fn new(parent: &Mesh, topo: &'a Topology, scheme: &Scheme) -> Self {
+        let anchored = scheme.boundary != Boundary::None && !parent.is_anchored();
+        let single = |v| scheme.boundary == Boundary::EdgeCorner && topo.is_single_face(v);
+        let tagged = |v: usize| parent.corner_tags().contains(&(v as u32));
+        let kappa = |&v: &usize| anchored && (single(v) || tagged(v));
+        Self { topo, anchored, kappas: (0..parent.vertices()).filter(kappa).collect() }
+    }
+
+    /// Corners, β in pairs, κ, isolated vertices.
+    fn vertex_origins(&self) -> Vec<VertexOrigin> {
+        let corners = (0..self.topo.corner_count()).map(|c| VertexOrigin::Corner(c as u32));
+        let beta = |(c, at_end)| VertexOrigin::EdgeEnd { corner: c as u32, at_end };
+        let rim = self.rim();
+        let betas = rim.iter().flat_map(|&c| [(c, false), (c, true)]).map(beta);
+        let vertices = self.kappas.iter().copied().chain(self.topo.isolated());
+        corners.chain(betas).chain(vertices.map(|v| VertexOrigin::Vertex(v as u32))).collect()
+    }
+
+    /// The boundary corners that get β points.
+    fn rim(&self) -> Vec<usize> {
+        if self.anchored { self.topo.boundary_edges() } else { Vec::new() }
+    }
+
+    fn beta(&self, corner: usize, at_end: bool) -> usize {
+        let place = self.rim().iter().position(|&c| c == corner).expect("a boundary corner");
+        self.topo.corner_count() + 2 * place + usize::from(at_end)
+    }
+
+    /// The child face of an origin, starting where the documentation says.
+    fn face(&self, origin: FaceOrigin) -> Vec<usize> {
+        match origin {
+            FaceOrigin::Face(f) => self.topo.corners_of(f as usize),
+            FaceOrigin::Edge(c) => self.edge_quad(c as usize),
+            FaceOrigin::Vertex(v) => self.vertex_face(v as usize),
+            other => panic!("{other:?} is no parent in a corner split"),
+        }
+    }
+
+    fn edge_quad(&self, c: usize) -> Vec<usize> {
+        let next = &self.topo.next;
+        match self.topo.twin[c] {
+            Some(g) => vec![next[c], c, next[g], g],
+            None => vec![next[c], c, self.beta(c, false), self.beta(c, true)],
+        }
+    }
+
+    fn vertex_face(&self, v: usize) -> Vec<usize> {
+        let mut face = self.topo.fans[v].clone();
+        if self.topo.is_boundary(v) {
+            let incoming = self.topo.prev[face[face.len() - 1]];
+            face.insert(0, self.beta(face[0], false));
+            face.push(self.beta(incoming, true));
+            let betas = self.topo.corner_count() + 2 * self.rim().len();
+            face.extend(self.kappas.iter().position(|&k| k == v).map(|place| betas + place));
+        }
+        face
+    }
+
+    /// The blocks of faces in their order.
+    fn face_origins(&self) -> Vec<FaceOrigin> {
+        let faces = (0..self.topo.face_count()).map(|f| FaceOrigin::Face(f as u32));
+        let rim = self.rim();
+        let edges = self.topo.interior_edges().into_iter().chain(rim);
+        let edges = edges.map(|c| FaceOrigin::Edge(c as u32));
+        let has_face = |v: &usize| match self.topo.is_boundary(*v) {
+            true => self.anchored,
+            false => self.topo.fans[*v].len() >= 3,
+        };
+        let vertices = (0..self.topo.fans.len()).filter(has_face);
+        let vertices = vertices.map(|v| FaceOrigin::Vertex(v as u32));
+        let is_quad = |o: &FaceOrigin| self.face(*o).len() == 4;
+        let (face_quads, faces): (Vec<_>, Vec<_>) = faces.partition(is_quad);
+        let (vertex_quads, vertices): (Vec<_>, Vec<_>) = vertices.partition(is_quad);
+        [faces, vertices, face_quads, edges.collect(), vertex_quads].concat()
+    }
+}
+
+/// Lineage and faces of a level, element by element and in order.
+fn check_numbering(
+    parent: &Mesh,
+    child: &Mesh,
+    scheme: &Scheme,
+    vertices: &[VertexOrigin],
+    faces: &[FaceOrigin],
+) {
+    let topo = topology(parent);
+    let expected = Expected::new(parent, &topo, scheme);
+    assert_eq!(vertices, expected.vertex_origins());
+    assert_eq!(faces, expected.face_origins());
+    for (f, &origin) in faces.iter().enumerate() {
+        let cycle: Vec<usize> = child.face_vertices(f).iter().map(|&v| v as usize).collect();
+        assert_eq!(cycle, expected.face(origin), "face {f} from {origin:?}");
+    }
+}
+
+// --------------------------------------------------------------------- oracle
+
+/// The oracle's name for the parent of a vertex.
+fn vertex_parent(topo: &Topology, origin: VertexOrigin) -> VertexParent {
+    match origin {
+        VertexOrigin::Corner(c) => {
+            let c = c as usize;
+            VertexParent::Corner { face: topo.face[c], position: topo.position[c] }
+        }
+        VertexOrigin::EdgeEnd { corner, at_end } => {
+            let c = corner as usize;
+            let (from, to) = (topo.vert[c], topo.vert[topo.next[c]]);
+            VertexParent::Beta { from, to, at: if at_end { to } else { from } }
+        }
+        VertexOrigin::Vertex(v) if topo.is_isolated(v as usize) => {
+            VertexParent::Isolated(v as usize)
+        }
+        VertexOrigin::Vertex(v) => VertexParent::Kappa(v as usize),
+        other => panic!("{other:?} is no parent in a corner split"),
+    }
+}
+
+fn face_parent(topo: &Topology, origin: FaceOrigin) -> FaceParent {
+    match origin {
+        FaceOrigin::Face(f) => FaceParent::Face(f as usize),
+        FaceOrigin::Edge(c) => {
+            let (a, b) = (topo.vert[c as usize], topo.vert[topo.next[c as usize]]);
+            FaceParent::Edge(a.min(b), a.max(b))
+        }
+        FaceOrigin::Vertex(v) => FaceParent::Vertex(v as usize),
+        other => panic!("{other:?} is no parent in a corner split"),
+    }
+}
+
+/// Same parents as the oracle's step on the same mesh, and the same children.
+fn check_against_oracle(
+    parent: &Mesh,
+    child: &Mesh,
+    scheme: &Scheme,
+    vertices: &[VertexOrigin],
+    faces: &[FaceOrigin],
+) {
+    let tags = parent.corner_tags().iter().map(|&v| v as usize).collect();
+    let flat = vec![0.0; 3 * parent.vertices()];
+    let step = reference::step(&Poly { tags, ..kernel::poly(parent, &flat) }, scheme);
+    let topo = topology(parent);
+    let parents: Vec<_> = vertices.iter().map(|&o| vertex_parent(&topo, o)).collect();
+    // Parents are distinct, so they say which vertex is which.
+    let place: HashMap<_, _> = step.vertices.iter().enumerate().map(|(i, p)| (*p, i)).collect();
+    assert_eq!(place.len(), parents.len(), "as many children");
+    let partner: Vec<usize> = parents.iter().map(|p| place[p]).collect();
+    let cycles = step.faces.iter().zip(&step.poly.faces);
+    let cycles: HashMap<_, _> = cycles.map(|(p, f)| (*p, canonical_cycle(f.clone()))).collect();
+    assert_eq!(cycles.len(), faces.len(), "as many faces");
+    for (f, &origin) in faces.iter().enumerate() {
+        let cycle = child.face_vertices(f).iter().map(|&v| partner[v as usize]).collect();
+        assert_eq!(canonical_cycle(cycle), cycles[&face_parent(&topo, origin)], "face {f}");
+    }
+}
+
+fn check_levels(control: &Poly<f64>, scheme: &Scheme) {
+    let hierarchy = kernel::hierarchy(control, scheme, LEVELS);
+    check_adjacency(hierarchy.mesh(0));
+    for level in 1..=LEVELS {
+        let (parent, child) = (hierarchy.mesh(level - 1), hierarchy.mesh(level));
+        check_adjacency(child);
+        check_rebuilt(child);
+        let vertices = hierarchy.vertex_origins(level).expect("a level that was built");
+        let faces = hierarchy.face_origins(level).expect("a level that was built");
+        check_numbering(parent, child, scheme, &vertices, &faces);
+        if level < LEVELS {
+            check_against_oracle(parent, child, scheme, &vertices, &faces);
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(config(80))]
+
+    #[test]
+    fn levels_are_what_their_faces_say(
+        control in tagged_meshes(Kind::Any),
+        scheme in schemes(),
+    ) {
+        check_levels(&control, &scheme);
+    }
+}
+
+/// Named awkward meshes, under every boundary rule.
+#[test]
+fn awkward_meshes_are_what_their_faces_say() {
+    let awkward = [
+        // All triangles: the regular size is 3 once, and 4 ever after.
+        bases::tetrahedron(),
+        bases::triangle_grid(2, 2),
+        // Lone faces: nothing but boundary.
+        bases::polygon(3),
+        bases::polygon(4),
+        bases::polygon(7),
+        // Interior vertices of valence 2.
+        bases::pillow(4),
+        bases::valence_two(),
+        // Vertices with more faces than a short fan has.
+        bases::fan(40),
+        bases::half_fan(40),
+        // Two loops.
+        bases::frame(),
+        bases::annulus(3, 1),
+        // Nothing to split.
+        Poly::new(vec![[0.0; 3]; 3], Vec::new()),
+    ];
+    let plain = |scheme: &Scheme| scheme.passes.is_empty();
+    for scheme in all_schemes().into_iter().filter(plain) {
+        for mesh in &awkward {
+            check_levels(mesh, &scheme);
+        }
+    }
+}
