@@ -55,8 +55,19 @@ pub trait Scalar:
     + Sub<Output = Self>
     + Mul<Output = Self>
 {
+    /// Four values side by side, in vector registers where the processor has
+    /// them. Multiplications and additions stay separate, so that every
+    /// processor gives the same bits.
+    type Lanes: Copy + Add<Output = Self::Lanes> + Mul<Self, Output = Self::Lanes>;
+
     /// Size in bytes.
     const BYTES: u64;
+
+    /// Puts four values side by side.
+    fn lanes(values: [Self; 4]) -> Self::Lanes;
+
+    /// Takes them apart again.
+    fn unlaned(lanes: Self::Lanes) -> [Self; 4];
 
     /// The nearest value; overflows to infinity.
     fn from_f64(value: f64) -> Self;
@@ -69,7 +80,19 @@ pub trait Scalar:
 }
 
 impl Scalar for f32 {
+    type Lanes = glam::Vec4;
+
     const BYTES: u64 = 4;
+
+    #[inline(always)]
+    fn lanes(values: [Self; 4]) -> Self::Lanes {
+        glam::Vec4::from_array(values)
+    }
+
+    #[inline(always)]
+    fn unlaned(lanes: Self::Lanes) -> [Self; 4] {
+        lanes.to_array()
+    }
 
     fn from_f64(value: f64) -> Self {
         value as f32
@@ -85,7 +108,19 @@ impl Scalar for f32 {
 }
 
 impl Scalar for f64 {
+    type Lanes = glam::DVec4;
+
     const BYTES: u64 = 8;
+
+    #[inline(always)]
+    fn lanes(values: [Self; 4]) -> Self::Lanes {
+        glam::DVec4::from_array(values)
+    }
+
+    #[inline(always)]
+    fn unlaned(lanes: Self::Lanes) -> [Self; 4] {
+        lanes.to_array()
+    }
 
     fn from_f64(value: f64) -> Self {
         value

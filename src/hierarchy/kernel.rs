@@ -6,42 +6,40 @@
 //! costs less than keeping lists of those that are not.
 
 use crate::base::{NONE, Scalar};
-use crate::mesh::{Mesh, turn_in_quad};
+use crate::mesh::QuadWalker;
 use crate::scheme::Taps;
 
 /// A value of `W` lanes.
 pub(super) type Value<T, const W: usize> = [T; W];
 
-/// Four lanes, which compilers turn into vector registers; narrower values are
-/// padded with zeros on the way in.
-type Wide<T> = [T; 4];
-
+/// Narrower values are padded with zeros on the way into four lanes.
 #[inline(always)]
-fn widen<T: Scalar, const W: usize>(value: &Value<T, W>) -> Wide<T> {
-    std::array::from_fn(|lane| if lane < W { value[lane] } else { T::default() })
+fn widen<T: Scalar, const W: usize>(value: &Value<T, W>) -> T::Lanes {
+    T::lanes(std::array::from_fn(|lane| if lane < W { value[lane] } else { T::default() }))
 }
 
 #[inline(always)]
-fn narrow<T: Scalar, const W: usize>(value: Wide<T>) -> Value<T, W> {
-    std::array::from_fn(|lane| value[lane])
+fn narrow<T: Scalar, const W: usize>(lanes: T::Lanes) -> Value<T, W> {
+    let lanes = T::unlaned(lanes);
+    std::array::from_fn(|lane| lanes[lane])
 }
 
-/// Σ wᵢ·xᵢ, lane by lane, in order.
+/// w₀·x₀ + w₁·x₁, lane by lane.
 #[inline(always)]
-fn combine<T: Scalar, const N: usize>(weights: [T; N], values: [Wide<T>; N]) -> Wide<T> {
-    std::array::from_fn(|lane| {
-        let mut sum = weights[0] * values[0][lane];
-        for i in 1..N {
-            sum = sum + weights[i] * values[i][lane];
-        }
-        sum
-    })
+fn mix<T: Scalar>(weights: [T; 2], x: [T::Lanes; 2]) -> T::Lanes {
+    x[0] * weights[0] + x[1] * weights[1]
+}
+
+/// Three taps, lane by lane, in order.
+#[inline(always)]
+fn filter<T: Scalar>(taps: Taps<T>, x: [T::Lanes; 3]) -> T::Lanes {
+    x[0] * taps[0] + x[1] * taps[1] + x[2] * taps[2]
 }
 
 /// The univariate cut towards either end of an edge; `cut` is (near, far).
 #[inline(always)]
-fn cut_edge<T: Scalar>(cut: [T; 2], a: Wide<T>, b: Wide<T>) -> [Wide<T>; 2] {
-    [combine(cut, [a, b]), combine(cut, [b, a])]
+fn cut_edge<T: Scalar>(cut: [T; 2], a: T::Lanes, b: T::Lanes) -> [T::Lanes; 2] {
+    [mix::<T>(cut, [a, b]), mix::<T>(cut, [b, a])]
 }
 
 /// The corner operator on a quad, all four corners: the tensor square of the
@@ -51,12 +49,12 @@ pub(super) fn quad_corners<T: Scalar, const W: usize>(
     cut: [T; 2],
     x: [&Value<T, W>; 4],
 ) -> [Value<T, W>; 4] {
-    let [x0, x1, x2, x3] = x.map(widen);
-    let low = cut_edge(cut, x0, x1);
-    let high = cut_edge(cut, x3, x2);
-    let left = cut_edge(cut, low[0], high[0]);
-    let right = cut_edge(cut, low[1], high[1]);
-    [left[0], right[0], right[1], left[1]].map(narrow)
+    let [x0, x1, x2, x3] = x.map(widen::<T, W>);
+    let low = cut_edge::<T>(cut, x0, x1);
+    let high = cut_edge::<T>(cut, x3, x2);
+    let left = cut_edge::<T>(cut, low[0], high[0]);
+    let right = cut_edge::<T>(cut, low[1], high[1]);
+    [left[0], right[0], right[1], left[1]].map(narrow::<T, W>)
 }
 
 /// The grid around a quad: the corners of its face, in order, and for each
@@ -73,108 +71,41 @@ pub(super) struct Grid {
     pub(super) beyond: [u32; 4],
 }
 
-/// Corner arithmetic among the quads of a mesh.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Quads<'a> {
-    pub(super) mesh: &'a Mesh,
-    first: u32,
-    count: u32,
+/// True if an edge of the quad at this corner is a boundary edge.
+#[inline(always)]
+pub(super) fn touches_rim(quads: QuadWalker, corner: u32) -> bool {
+    quads.twins(corner).contains(&NONE)
 }
 
-impl<'a> Quads<'a> {
-    pub(super) fn new(mesh: &'a Mesh) -> Self {
-        let first = mesh.layout.first_quad_corner();
-        Self { mesh, first, count: mesh.layout.corners() - first }
+/// The grid of the mesh's vertices around a regular quad. With `mirrors`, a quad
+/// next to one on the boundary is not regular: that one's split points follow
+/// another rule.
+#[inline(always)]
+pub(super) fn vertex_grid(quads: QuadWalker, corner: u32, mirrors: bool) -> Option<Grid> {
+    let ring = quads.ring(corner)?;
+    let on_rim = |c: &u32| touches_rim(quads, quads.face_start(*c));
+    if mirrors && (ring.across.iter().any(on_rim) || ring.beyond.iter().any(on_rim)) {
+        return None;
     }
+    let at = |corner: u32, by: u32| quads.mesh.vert[quads.turn(corner, by) as usize];
+    Some(Grid {
+        own: quads.vertices(corner),
+        near: ring.across.map(|t| at(t, 2)),
+        far: ring.across.map(|t| at(t, 3)),
+        beyond: ring.beyond.map(|d| at(d, 2)),
+    })
+}
 
-    #[inline(always)]
-    fn holds(self, corner: u32) -> bool {
-        // NONE and irregular corners both fail this one comparison.
-        corner.wrapping_sub(self.first) < self.count
-    }
-
-    #[inline(always)]
-    fn turn(self, corner: u32, by: u32) -> u32 {
-        turn_in_quad(self.first, corner, by)
-    }
-
-    /// The first corner of the quad that a corner belongs to.
-    #[inline(always)]
-    pub(super) fn face_start(self, corner: u32) -> u32 {
-        self.first + ((corner - self.first) & !3)
-    }
-
-    /// True if an edge of the quad at this corner is a boundary edge.
-    #[inline(always)]
-    pub(super) fn touches_rim(self, corner: u32) -> bool {
-        let c = corner as usize;
-        self.mesh.twin[c..c + 4].contains(&NONE)
-    }
-
-    /// The vertices of the quad that starts at `corner`.
-    #[inline(always)]
-    pub(super) fn vertices(self, corner: u32) -> [u32; 4] {
-        let c = corner as usize;
-        let quad: &[u32; 4] = self.mesh.vert[c..c + 4].try_into().expect("four corners");
-        *quad
-    }
-
-    /// The corners around a regular quad that starts at `corner`: beyond edge i
-    /// and beyond vertex i. `None` if it is not regular.
-    #[inline(always)]
-    fn ring(self, corner: u32) -> Option<([u32; 4], [u32; 4])> {
-        let twin = &self.mesh.twin;
-        let c = corner as usize;
-        let across: &[u32; 4] = twin[c..c + 4].try_into().expect("four corners");
-        if !across.iter().all(|&t| self.holds(t)) {
-            return None;
-        }
-        let mut diagonal = [0; 4];
-        for i in 0..4 {
-            // Two steps either way around vertex i meet if its valence is 4 (or
-            // 2, when they meet at the corner itself).
-            let left = twin[self.turn(across[(i + 3) % 4], 3) as usize];
-            let right = twin[self.turn(across[i], 1) as usize];
-            let own = corner + i as u32;
-            if !self.holds(left) || !self.holds(right) || self.turn(right, 1) != left || left == own
-            {
-                return None;
-            }
-            diagonal[i] = left;
-        }
-        Some((*across, diagonal))
-    }
-
-    /// The grid of the mesh's vertices around a regular quad. With `mirrors`, a
-    /// quad next to one on the boundary is not regular: that one's split points
-    /// follow another rule.
-    #[inline(always)]
-    pub(super) fn vertex_grid(self, corner: u32, mirrors: bool) -> Option<Grid> {
-        let (across, diagonal) = self.ring(corner)?;
-        let on_rim = |c: &u32| self.touches_rim(self.face_start(*c));
-        if mirrors && (across.iter().any(on_rim) || diagonal.iter().any(on_rim)) {
-            return None;
-        }
-        let at = |corner: u32, by: u32| self.mesh.vert[self.turn(corner, by) as usize];
-        Some(Grid {
-            own: self.vertices(corner),
-            near: across.map(|t| at(t, 2)),
-            far: across.map(|t| at(t, 3)),
-            beyond: diagonal.map(|d| at(d, 2)),
-        })
-    }
-
-    /// The grid of corners, which are the vertices of the split mesh.
-    #[inline(always)]
-    pub(super) fn corner_grid(self, corner: u32) -> Option<Grid> {
-        let (across, diagonal) = self.ring(corner)?;
-        Some(Grid {
-            own: std::array::from_fn(|i| corner + i as u32),
-            near: across.map(|t| self.turn(t, 1)),
-            far: across,
-            beyond: diagonal,
-        })
-    }
+/// The grid of corners, which are the vertices of the split mesh.
+#[inline(always)]
+pub(super) fn corner_grid(quads: QuadWalker, corner: u32) -> Option<Grid> {
+    let ring = quads.ring(corner)?;
+    Some(Grid {
+        own: std::array::from_fn(|i| corner + i as u32),
+        near: ring.across.map(|t| quads.turn(t, 1)),
+        far: ring.across,
+        beyond: ring.beyond,
+    })
 }
 
 /// The tensor product of three taps at the four inner places of a grid.
@@ -193,9 +124,9 @@ pub(super) fn grid_children<T: Scalar, const W: usize>(
         [at(near[3]), at(own[3]), at(own[2]), at(far[1])],
         [at(beyond[3]), at(far[2]), at(near[2]), at(beyond[2])],
     ];
-    let left = rows.map(|r| combine(taps, [r[0], r[1], r[2]]));
-    let right = rows.map(|r| combine(taps, [r[3], r[2], r[1]]));
-    let low = |x: &[Wide<T>; 4]| narrow(combine(taps, [x[0], x[1], x[2]]));
-    let high = |x: &[Wide<T>; 4]| narrow(combine(taps, [x[3], x[2], x[1]]));
+    let left = rows.map(|r| filter::<T>(taps, [r[0], r[1], r[2]]));
+    let right = rows.map(|r| filter::<T>(taps, [r[3], r[2], r[1]]));
+    let low = |x: &[T::Lanes; 4]| narrow::<T, W>(filter::<T>(taps, [x[0], x[1], x[2]]));
+    let high = |x: &[T::Lanes; 4]| narrow::<T, W>(filter::<T>(taps, [x[3], x[2], x[1]]));
     [low(&left), low(&right), high(&right), high(&left)]
 }

@@ -1,8 +1,9 @@
 //! The values of one step: rows applied where they are needed, kernels elsewhere.
 
-use super::kernel::{Quads, Value, grid_children, quad_corners};
+use super::kernel::{Value, corner_grid, grid_children, quad_corners, touches_rim, vertex_grid};
 use super::memory;
 use crate::base::{Context, Fraction, Result, Scalar};
+use crate::mesh::QuadWalker;
 use crate::refine::CornerSplit;
 use crate::scheme::{CornerWeights, RowSink, Scheme, SchemeRows, Taps};
 
@@ -10,7 +11,7 @@ use crate::scheme::{CornerWeights, RowSink, Scheme, SchemeRows, Taps};
 pub(super) struct Step<'a> {
     split: &'a CornerSplit<'a>,
     scheme: &'a Scheme,
-    quads: Quads<'a>,
+    quads: QuadWalker<'a>,
     /// Quads on the boundary are completed by mirror images.
     mirrors: bool,
 }
@@ -41,7 +42,7 @@ impl<'a> Step<'a> {
     pub(super) fn new(scheme: &'a Scheme, split: &'a CornerSplit<'a>) -> Self {
         let parent = split.parent();
         let mirrors = scheme.anchors() && !split.lays_anchor() && !parent.is_closed();
-        Self { split, scheme, quads: Quads::new(parent), mirrors }
+        Self { split, scheme, quads: QuadWalker::new(parent), mirrors }
     }
 
     /// The number of child vertices.
@@ -101,7 +102,7 @@ impl<'a> Step<'a> {
         let cut = self.cut();
         let quad = |corner: u32| {
             let corners = self.quads.vertices(corner).map(|v| &values[v as usize]);
-            (!self.mirrors || !self.quads.touches_rim(corner)).then(|| quad_corners(cut, corners))
+            (!self.mirrors || !touches_rim(self.quads, corner)).then(|| quad_corners(cut, corners))
         };
         self.every_child(
             context,
@@ -126,7 +127,7 @@ impl<'a> Step<'a> {
             out,
             || (SchemeRows::new(self.scheme, self.split), SplitSum::new(self, values, irregular)),
             |corner| {
-                let grid = self.quads.vertex_grid(corner, self.mirrors)?;
+                let grid = vertex_grid(self.quads, corner, self.mirrors)?;
                 Some(grid_children(taps, &grid, values))
             },
             |(rows, sum), v| sum.of(|sink| rows.pass_row(0, v, sink)),
@@ -146,7 +147,7 @@ impl<'a> Step<'a> {
             context,
             out,
             || (SchemeRows::new(self.scheme, self.split), Sum::new(values)),
-            |corner| self.quads.corner_grid(corner).map(|grid| grid_children(taps, &grid, values)),
+            |corner| corner_grid(self.quads, corner).map(|grid| grid_children(taps, &grid, values)),
             |(rows, sum), v| sum.of(|sink| rows.pass_row(pass, v, sink)),
         )
     }
@@ -233,7 +234,7 @@ fn accumulate<T: Scalar, const W: usize>(total: &mut Value<T, W>, w: T, value: &
 /// A row on split points, which are computed when asked for: those of quads
 /// cost four terms, those of irregular faces are stored.
 struct SplitSum<'v, T, const W: usize> {
-    quads: Quads<'v>,
+    quads: QuadWalker<'v>,
     mirrors: bool,
     cut: [T; 2],
     irregular: &'v [Value<T, W>],
@@ -268,7 +269,7 @@ impl<'v, T: Scalar, const W: usize> SplitSum<'v, T, W> {
         }
         let face = self.quads.face_start(vertex);
         if vertex < self.quads.mesh.layout.corners()
-            && !(self.mirrors && self.quads.touches_rim(face))
+            && !(self.mirrors && touches_rim(self.quads, face))
         {
             let corners = self.quads.vertices(face).map(|v| &self.points.values[v as usize]);
             return quad_corners(self.cut, corners)[(vertex - face) as usize];

@@ -1,7 +1,7 @@
 //! From a polygon soup to a [`Mesh`]: checks, order, twins, fans.
 
 use super::pairing::{BadEdge, Pairing, pair};
-use super::{Defect, Defects, Layout, Mesh, anchor, cut};
+use super::{Defect, Defects, Layout, Mesh, Near, VertexSet, anchor, cut, order};
 use crate::base::{Context, Element, Error, ErrorKind, NONE, Result};
 
 /// What to do with edges and vertices that are not manifold.
@@ -64,6 +64,9 @@ pub fn build(
         defects.extend(bad.iter().map(|edge| soup.edge_defect(edge)));
     }
     let mut mesh = soup.into_mesh(vertices, twin);
+    if let Some(order) = order::breadth_first(&mesh.layout, &mesh.twin) {
+        mesh.reorder(&order);
+    }
     let split = if unusable { Vec::new() } else { several_fans(context, &mut mesh)? };
     let mut vertex_source = None;
     if cutting {
@@ -206,6 +209,8 @@ impl Soup {
             start: vec![NONE; vertices],
             rim: Vec::new(),
             special: Vec::new(),
+            special_set: VertexSet::default(),
+            near: Near::default(),
             corner_tags: Vec::new(),
             anchored: false,
             face_source: self.source,
@@ -243,12 +248,22 @@ fn fan_defects<'a>(split: &'a [u32], bad: &[BadEdge]) -> impl Iterator<Item = De
 }
 
 impl Mesh {
+    /// Puts the faces in another order, before fans and lists exist.
+    fn reorder(&mut self, order: &[u32]) {
+        let new = order::reorder(&self.layout, &self.vert, &self.twin, order);
+        (self.layout, self.vert, self.twin) = (new.layout, new.vert, new.twin);
+        let source = |&face: &u32| self.face_source.as_ref().map_or(face, |s| s[face as usize]);
+        self.face_source = Some(order.iter().map(source).collect());
+    }
+
     /// Fills the lists of boundary corners and special vertices.
     fn collect_lists(&mut self) {
         let corners = 0..self.vert.len() as u32;
         self.rim = corners.filter(|&c| self.twin[c as usize] == NONE).collect();
         let vertices = 0..self.start.len() as u32;
         self.special = vertices.filter(|&v| !self.is_regular(v)).collect();
+        self.special_set = VertexSet::new(self.start.len(), &self.special);
+        self.near = Near::of(self);
     }
 
     /// True for an interior vertex of valence 4.

@@ -9,10 +9,12 @@
 //! | `twin` | corner | the corner across its outgoing edge, or [`NONE`] |
 //! | `start` | vertex | first corner of its fan, or [`NONE`] if isolated |
 //! | `rim` | – | the corners whose outgoing edge is a boundary edge |
-//! | `special` | – | the vertices that are not interior of valence 4 |
+//! | `special` | – | the vertices that are not interior of valence 4, as list and set |
+//! | `near` | face | which corners lead their edge and start a fan |
 //!
-//! The fan of an interior vertex starts at its smallest corner, that of a
-//! boundary vertex at the corner whose outgoing edge is the boundary edge.
+//! The fan of a boundary vertex starts at the corner whose outgoing edge is the
+//! boundary edge; that of an interior vertex at its smallest corner, or, in a
+//! split mesh, at the child of the corner that the vertex comes from.
 //! [`Mesh::validate`] checks every one of these statements.
 
 mod anchor;
@@ -20,13 +22,18 @@ mod build;
 mod cut;
 mod defect;
 mod layout;
+pub(crate) mod near;
+mod order;
 mod pairing;
+mod ring;
 mod survey;
 mod validate;
 
 pub use build::{BuildOptions, Built, NonManifold, build};
 pub use defect::{Defect, Defects};
 pub(crate) use layout::{Layout, turn_in_quad};
+pub(crate) use near::Near;
+pub(crate) use ring::{QuadWalker, VertexSet};
 pub use survey::Survey;
 
 use crate::base::{Error, NONE, Result};
@@ -36,8 +43,9 @@ use std::ops::Range;
 /// boundary, of any number of components.
 ///
 /// Faces whose size is not the regular one (4, or 3 if all are triangles) come
-/// first; within that rule the caller's order is kept, and
-/// [`Mesh::face_source`] leads back to it. Vertices keep their numbers.
+/// first; within that rule the caller's order is kept, unless a large mesh comes
+/// in no order at all: then its faces are put in breadth-first order. Either way
+/// [`Mesh::face_source`] leads back. Vertices keep their numbers.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Mesh {
     pub(crate) layout: Layout,
@@ -46,6 +54,8 @@ pub struct Mesh {
     pub(crate) start: Vec<u32>,
     pub(crate) rim: Vec<u32>,
     pub(crate) special: Vec<u32>,
+    pub(crate) special_set: VertexSet,
+    pub(crate) near: Near,
     pub(crate) corner_tags: Vec<u32>,
     pub(crate) anchored: bool,
     /// Input face of each face, where the order was changed.
@@ -192,7 +202,9 @@ impl Mesh {
         let lists = [&self.vert, &self.twin, &self.start, &self.rim, &self.special];
         let lists: usize = lists.iter().map(|list| list.capacity()).sum();
         let source = self.face_source.as_ref().map_or(0, Vec::capacity);
-        self.layout.bytes() + 4 * (lists + self.corner_tags.capacity() + source) as u64
+        self.layout.bytes()
+            + self.special_set.bytes()
+            + 4 * (lists + self.corner_tags.capacity() + source) as u64
     }
 
     #[inline(always)]

@@ -1,6 +1,7 @@
 //! One function that checks every invariant a [`Mesh`] relies on.
 
-use super::Mesh;
+use super::near::{LEADS, STARTS};
+use super::{Mesh, VertexSet};
 use crate::base::{Error, ErrorKind, NONE, Result};
 
 impl Mesh {
@@ -53,8 +54,8 @@ impl Mesh {
             let fan: Vec<u32> = self.fan(v as u32).collect();
             reached += fan.len();
             ensure(fan.iter().all(|&c| self.vert[c as usize] as usize == v), "fan", v)?;
-            let smallest = fan.iter().min().copied().unwrap_or(NONE);
-            ensure(self.on_rim(v as u32) || start == smallest, "start of fan", v)?;
+            let closed = fan.last().is_none_or(|&last| self.ccw(last) == start);
+            ensure(closed || self.on_rim(v as u32), "start of fan", v)?;
         }
         ensure(reached == self.vert.len(), "corners reached by fans", reached)
     }
@@ -64,9 +65,34 @@ impl Mesh {
         ensure(self.rim.iter().copied().eq(open), "rim", self.rim.len())?;
         let special = (0..self.start.len() as u32).filter(|&v| !self.is_regular(v));
         ensure(self.special.iter().copied().eq(special), "special", self.special.len())?;
+        let set = VertexSet::new(self.start.len(), &self.special);
+        self.check_near()?;
+        ensure(self.special_set == set, "set of special vertices", self.special.len())?;
         let sorted = self.corner_tags.windows(2).all(|pair| pair[0] < pair[1]);
         let tagged = self.corner_tags.iter().all(|&v| self.on_rim(v));
         ensure(sorted && tagged, "corner tags", self.corner_tags.len())
+    }
+}
+
+impl Mesh {
+    /// One corner leads each interior edge, and the right ones start fans.
+    fn check_near(&self) -> Result<()> {
+        let first = self.layout.first_quad_corner();
+        let quads = (self.layout.corners() - first) as usize / 4;
+        let sizes = self.near.irregular.len() == first as usize && self.near.quads.len() == quads;
+        ensure(sizes, "sizes of near", quads)?;
+        for c in 0..self.layout.corners() {
+            let leads = |c| self.near.corner(first, c) & LEADS != 0;
+            let led = match self.twin[c as usize] {
+                NONE => !leads(c),
+                twin => leads(c) != leads(twin),
+            };
+            ensure(led, "leader of edge", c as usize)?;
+            let v = self.vert[c as usize];
+            let starts = self.start[v as usize] == c && !self.special_set.contains(v);
+            ensure((self.near.corner(first, c) & STARTS != 0) == starts, "starts", c as usize)?;
+        }
+        Ok(())
     }
 }
 

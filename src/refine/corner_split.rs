@@ -8,31 +8,38 @@
 //! * then one κ per corner vertex of the boundary, by vertex;
 //! * isolated vertices, by vertex.
 //!
-//! Child faces, in this order, those of another size than 4 first:
+//! Child faces that are no quads come first: the children of irregular parent
+//! faces, in order, then the irregular vertex faces, by vertex. The quads follow,
+//! near their parents. For each irregular parent face, at each of its corners in
+//! order: the quad of the vertex whose fan starts there, the quad of the edge
+//! that the corner leads. Then for each quad of the parent: its own child, the
+//! quads of the vertices whose fans start at its corners, the quads of the edges
+//! that its corners lead. Which corner leads an edge is explained in
+//! `mesh/near.rs`; a boundary edge, where it gets a quad, is led by its corner.
 //!
-//! | block | one per | corners |
-//! |---|---|---|
-//! | irregular faces | irregular parent face | its corners, same cycle |
-//! | irregular vertex faces | vertex whose face is no quad | its fan |
-//! | quads | quad of the parent | its corners, same cycle |
-//! | edge quads | edge, by its first corner; boundary edges last | below |
-//! | vertex quads | remaining vertex with a face | its fan |
+//! * The child of a face has the parent's corners as vertices, same cycle.
+//! * The quad of an edge led by `c` with twin `g` is (next c, c, next g, g); its
+//!   corners 0 and 1 are called inner and outer corner of `c`, 2 and 3 those of
+//!   `g`. The inner corner's twin is the corner of `c` in the child of the face,
+//!   the outer corner's twin lies in the vertex face. The quad of a boundary
+//!   edge is (next c, c, β near a, β near b′).
+//! * A vertex face holds the fan of its vertex from its start; on the boundary
+//!   of an anchoring split it is framed: β of the outgoing boundary edge, the
+//!   fan, β of the incoming one, κ if there is one.
 //!
-//! The quad of an edge with first corner `c` and twin `g` is (next c, c, next g,
-//! g); its corners 0 and 1 are called inner and outer corner of `c`, 2 and 3
-//! those of `g`. The inner corner's twin is the corner `c` of the child of the
-//! face, the outer corner's twin lies in the vertex face. That of a boundary
-//! edge is (next c, c, β near a, β near b′). A vertex face holds the fan of its
-//! vertex from its start; on the boundary of an anchoring split it is framed: β
-//! of the outgoing boundary edge, the fan, β of the incoming one, κ if there is
-//! one.
-//!
-//! So every child's place follows from its parent's number, the number of its
-//! edge, and a running total of vertex-face sizes.
+//! So every child's place follows from its parent's corner and one running
+//! total per level; in a split mesh, whose faces are of three kinds only, the
+//! child of a face has nine children near it, the quad of an edge three, the
+//! quad of a vertex one. Children next to each other on the surface stay next to each
+//! other in memory at every depth: ordering all face children before all edge
+//! quads and those before all vertex quads made a deep refinement two to three
+//! times slower, each level tripling the places that are read at once.
 
 use super::counts::{Counts, irregular_rim_faces};
 use crate::base::{Context, Error, ErrorKind, NONE, Result};
-use crate::mesh::{Layout, Mesh};
+use crate::mesh::near::{LEADS, STARTS};
+use crate::mesh::{Layout, Mesh, Near};
+use std::borrow::Cow;
 use std::ops::Range;
 
 /// Whether and where a split lays an anchor row.
@@ -95,27 +102,19 @@ pub(crate) struct CornerSplit<'a> {
     /// Vertices without a vertex quad, ascending.
     pub(super) without_quad: Vec<u32>,
     pub(super) isolated: Vec<u32>,
-    pub(super) blocks: Blocks,
-    /// Interior edges before each chunk of parent corners; see `edge_chunks`.
-    pub(super) edge_chunks: Vec<EdgeChunk>,
-}
-
-/// First child corner of each block.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Blocks {
-    /// Corners of irregular parent faces keep their numbers: block one is 0..this.
+    /// First child corner of the irregular vertex faces, and of the quads.
     pub(super) vertex_faces: u32,
     pub(super) quads: u32,
-    pub(super) edges: u32,
-    pub(super) rim_edges: u32,
-    pub(super) vertex_quads: u32,
+    pub(super) chunks: Vec<FaceChunk>,
+    /// Which child quads stand near each corner.
+    pub(super) near: Cow<'a, Near>,
 }
 
-/// A run of parent corners and the edges whose first corner is in it.
+/// A run of parent faces and the child quads that stand near them.
 #[derive(Debug, Clone)]
-pub(super) struct EdgeChunk {
-    pub(super) corners: Range<usize>,
-    pub(super) edges: Range<u32>,
+pub(super) struct FaceChunk {
+    pub(super) corners: Range<u32>,
+    pub(super) quads: Range<u32>,
 }
 
 impl<'a> CornerSplit<'a> {
@@ -131,9 +130,85 @@ impl<'a> CornerSplit<'a> {
         let (irregular, without_quad) = vertex_faces(parent, &anchor);
         let isolated = parent.special.iter().copied();
         let isolated = isolated.filter(|&v| parent.start[v as usize] == NONE).collect();
-        let edge_chunks = edge_chunks(context, parent)?;
-        let blocks = Blocks::new(parent, &irregular, &anchor);
-        Ok(Self { parent, anchor, counts, irregular, without_quad, isolated, blocks, edge_chunks })
+        let vertex_faces = parent.layout.first_quad_corner();
+        let quads = vertex_faces + irregular.iter().map(|&(_, size)| size).sum::<u32>();
+        let mut split = Self {
+            parent,
+            anchor,
+            counts,
+            irregular,
+            without_quad,
+            isolated,
+            vertex_faces,
+            quads,
+            chunks: Vec::new(),
+            near: Cow::Borrowed(&parent.near),
+        };
+        split.frame_near();
+        split.chunks = split.cut(context)?;
+        Ok(split)
+    }
+
+    /// Cuts the parent's faces into chunks, irregular ones and quads apart, and
+    /// counts the child quads of each.
+    fn cut(&self, context: &Context) -> Result<Vec<FaceChunk>> {
+        let first = self.vertex_faces;
+        let corners = self.parent.layout.corners();
+        let all = (self.counts.faces - self.counts.irregular_faces) as u32;
+        let Near { irregular, quads } = &*self.near;
+        if context.threads() == 1 {
+            // One thread needs no counts of the quads, which are most of all.
+            let before = quads_near(irregular);
+            let irregular = FaceChunk { corners: 0..first, quads: 0..before };
+            return Ok(vec![irregular, FaceChunk { corners: first..corners, quads: before..all }]);
+        }
+        let irregular_chunks = context.chunks(irregular.len());
+        let mut counts =
+            context.map(irregular_chunks.clone(), |range| quads_near(&irregular[range]))?;
+        let quad_chunks = context.chunks(quads.len());
+        counts
+            .extend(context.map(quad_chunks.clone(), |range| {
+                range.len() as u32 + quads_near(&quads[range])
+            })?);
+        let mut place = 0;
+        let irregular = irregular_chunks.into_iter().map(|r| r.start as u32..r.end as u32);
+        let quads = quad_chunks.into_iter();
+        let quads = quads.map(|r| first + 4 * r.start as u32..first + 4 * r.end as u32);
+        let chunks = irregular.chain(quads).zip(counts).map(|(corners, n)| {
+            place += n;
+            FaceChunk { corners, quads: place - n..place }
+        });
+        Ok(chunks.collect())
+    }
+
+    /// Adds the quads of boundary edges and boundary vertices.
+    fn frame_near(&mut self) {
+        if !self.lays_anchor() || self.parent.is_closed() {
+            return;
+        }
+        let first = self.vertex_faces;
+        for &c in &self.parent.rim {
+            // The fan of a boundary vertex starts at its rim corner.
+            let v = self.parent.vert[c as usize];
+            let quad = self.without_quad.binary_search(&v).is_err();
+            self.near.to_mut().set(first, c, LEADS | if quad { STARTS } else { 0 });
+        }
+    }
+
+    /// True if the fan of a vertex that gets a quad starts at the corner.
+    pub(super) fn starts_quad(&self, corner: u32) -> bool {
+        self.near.corner(self.vertex_faces, corner) & STARTS != 0
+    }
+
+    /// True if the corner leads an edge that gets a quad.
+    pub(super) fn leads_quad(&self, corner: u32) -> bool {
+        self.near.corner(self.vertex_faces, corner) & LEADS != 0
+    }
+
+    /// True if the vertex gets a quad.
+    pub(super) fn has_quad(&self, vertex: u32) -> bool {
+        !self.parent.special_set.contains(vertex)
+            || self.without_quad.binary_search(&vertex).is_err()
     }
 
     pub(crate) fn parent(&self) -> &'a Mesh {
@@ -194,22 +269,6 @@ impl<'a> CornerSplit<'a> {
         let quads = self.counts.faces - self.counts.irregular_faces;
         Layout::new(faces.chain(vertices), 4, quads as u32)
     }
-
-    /// The number of vertices below `vertex` that have no vertex quad.
-    pub(super) fn skipped_before(&self, vertex: u32) -> u32 {
-        self.without_quad.partition_point(|&v| v < vertex) as u32
-    }
-}
-
-impl Blocks {
-    fn new(parent: &Mesh, irregular: &[(u32, u32)], anchor: &Anchor) -> Self {
-        let vertex_faces = parent.layout.first_quad_corner();
-        let quads = vertex_faces + irregular.iter().map(|&(_, size)| size).sum::<u32>();
-        let edges = quads + (parent.layout.corners() - vertex_faces);
-        let rim_edges = edges + 4 * parent.interior_edges() as u32;
-        let laid = if *anchor == Anchor::Keep { 0 } else { 4 * parent.rim.len() as u32 };
-        Self { vertex_faces, quads, edges, rim_edges, vertex_quads: rim_edges + laid }
-    }
 }
 
 /// The irregular vertex faces with their sizes, and the vertices without a quad.
@@ -231,29 +290,7 @@ fn vertex_faces(parent: &Mesh, anchor: &Anchor) -> (Vec<(u32, u32)>, Vec<u32>) {
     (irregular, without_quad)
 }
 
-/// Cuts the parent's corners into chunks and counts the interior edges whose
-/// first corner lies in each.
-fn edge_chunks(context: &Context, parent: &Mesh) -> Result<Vec<EdgeChunk>> {
-    let chunks = context.chunks(parent.corners());
-    let counts = context.map(chunks.clone(), |range| {
-        let first = range.start as u32;
-        let twins = &parent.twin[range];
-        (first..).zip(twins).map(|(c, &twin)| u32::from(leads_edge(c, twin))).sum::<u32>()
-    })?;
-    let mut edges = 0;
-    Ok(chunks
-        .into_iter()
-        .zip(counts)
-        .map(|(corners, n)| {
-            edges += n;
-            EdgeChunk { corners, edges: edges - n..edges }
-        })
-        .collect())
-}
-
-/// True if `corner` is the first corner of an interior edge.
-#[inline]
-pub(super) fn leads_edge(corner: u32, twin: u32) -> bool {
-    // NONE is the largest index, so one comparison would let boundaries pass.
-    corner < twin && twin != NONE
+/// The number of child quads of edges and vertices near some corners.
+fn quads_near(bits: &[u8]) -> u32 {
+    bits.iter().map(|bits| bits.count_ones()).sum()
 }

@@ -1,8 +1,9 @@
-//! The faces of the split mesh, block by block, written in order.
+//! The faces of the split mesh, written in order.
 
-use super::corner_split::{CornerSplit, leads_edge};
+use super::corner_split::CornerSplit;
 use crate::base::{Context, NONE, Result};
-use crate::mesh::Mesh;
+use crate::mesh::QuadWalker;
+use crate::mesh::near::{LEADS, LEADS_ALL, LEADS_NONE, LEADS_OUTER, STARTS};
 
 impl CornerSplit<'_> {
     /// Writes the size of every child face.
@@ -21,91 +22,70 @@ impl CornerSplit<'_> {
 
     /// Writes the concatenated vertices of all child faces.
     ///
-    /// `out` holds `counts.corners` entries. Costs one pass over the parent's
-    /// twins and one gather per vertex.
+    /// `out` holds `counts.corners` entries. One pass over the parent's faces;
+    /// each quad costs a gather or two close by.
     pub(crate) fn write_faces(&self, context: &Context, out: &mut [u32]) -> Result<()> {
-        let blocks = self.blocks;
-        let cut = |out, len: u32| <[u32]>::split_at_mut(out, len as usize);
-        let (faces, out) = cut(out, blocks.vertex_faces);
-        let (vertex_faces, out) = cut(out, blocks.quads - blocks.vertex_faces);
-        let (quads, out) = cut(out, blocks.edges - blocks.quads);
-        let (edges, out) = cut(out, blocks.rim_edges - blocks.edges);
-        let (rim_edges, vertex_quads) = cut(out, blocks.vertex_quads - blocks.rim_edges);
-        // A child of a face has the parent's corners as vertices.
-        write_run(context, faces, 0)?;
-        write_run(context, quads, blocks.vertex_faces)?;
-        self.write_irregular_vertex_faces(vertex_faces);
-        self.write_edge_quads(context, edges)?;
-        self.write_rim_quads(context, rim_edges)?;
-        self.write_vertex_quads(context, vertex_quads)
-    }
-
-    fn write_irregular_vertex_faces(&self, mut out: &mut [u32]) {
+        let (irregular, quads) = out.split_at_mut(self.quads as usize);
+        for (slot, corner) in irregular[..self.vertex_faces as usize].iter_mut().zip(0..) {
+            *slot = corner;
+        }
+        let mut rest = &mut irregular[self.vertex_faces as usize..];
         for &(v, size) in &self.irregular {
-            let (face, rest) = out.split_at_mut(size as usize);
+            let (face, later) = rest.split_at_mut(size as usize);
             self.write_vertex_face(v, face);
-            out = rest;
+            rest = later;
         }
-    }
-
-    fn write_edge_quads(&self, context: &Context, mut out: &mut [u32]) -> Result<()> {
-        let parent = self.parent;
-        let mut parts = Vec::with_capacity(self.edge_chunks.len());
-        for chunk in &self.edge_chunks {
-            let (part, rest) = out.split_at_mut(4 * chunk.edges.len());
+        let mut parts = Vec::with_capacity(self.chunks.len());
+        let mut rest = quads.as_chunks_mut::<4>().0;
+        for chunk in &self.chunks {
+            let (part, later) = rest.split_at_mut(chunk.quads.len());
             parts.push((chunk.corners.clone(), part));
-            out = rest;
+            rest = later;
         }
-        context.for_each(parts, |(corners, part)| {
-            let (quads, _) = part.as_chunks_mut::<4>();
-            let mut place = 0;
-            let twins = &parent.twin[corners.clone()];
-            for (c, &twin) in (corners.start as u32..).zip(twins) {
-                // Written whether it counts or not: which corner leads its edge
-                // is hard to foresee, and a store costs less than a wrong guess.
-                let Some(quad) = quads.get_mut(place) else { break };
-                let across = if twin == NONE { NONE } else { parent.next(twin) };
-                *quad = [parent.next(c), c, across, twin];
-                place += usize::from(leads_edge(c, twin));
+        let first = self.vertex_faces;
+        context.for_each(parts, |(corners, out)| {
+            let mut out = Quads { out, place: 0 };
+            if corners.end <= first {
+                for c in corners {
+                    self.write_vertex_quad(c, &mut out);
+                    self.write_edge_quad(c, &mut out);
+                }
+                return;
+            }
+            let walker = QuadWalker::new(self.parent);
+            let near = &self.near.quads[(corners.start - first) as usize / 4..];
+            for (c, &near) in corners.step_by(4).zip(near) {
+                out.push([c, c + 1, c + 2, c + 3], true);
+                if !write_regular_quads(walker, c, near, &mut out) {
+                    (c..c + 4).for_each(|c| self.write_vertex_quad(c, &mut out));
+                    (c..c + 4).for_each(|c| self.write_edge_quad(c, &mut out));
+                }
             }
         })
     }
 
-    fn write_rim_quads(&self, context: &Context, out: &mut [u32]) -> Result<()> {
-        let (parent, beta) = (self.parent, self.parent.layout.corners());
-        context.fill(out, 4, |first, part| {
-            let (quads, _) = part.as_chunks_mut::<4>();
-            for (b, quad) in (first..).zip(quads) {
-                let c = parent.rim[b];
-                *quad = [parent.next(c), c, beta + 2 * b as u32, beta + 2 * b as u32 + 1];
-            }
-        })
+    /// The quad of the vertex whose fan starts at a corner, if it does.
+    #[cold]
+    #[inline(never)]
+    fn write_vertex_quad(&self, corner: u32, out: &mut Quads) {
+        if self.starts_quad(corner) {
+            let mut quad = [0; 4];
+            self.write_vertex_face(self.parent.vert[corner as usize], &mut quad);
+            out.push(quad, true);
+        }
     }
 
-    fn write_vertex_quads(&self, context: &Context, mut out: &mut [u32]) -> Result<()> {
-        let mut parts = Vec::new();
-        for range in context.chunks(self.parent.vertices()) {
-            let (start, end) = (range.start as u32, range.end as u32);
-            let skipped = self.skipped_before(end) - self.skipped_before(start);
-            let (part, rest) = out.split_at_mut(4 * (end - start - skipped) as usize);
-            parts.push((start, part));
-            out = rest;
+    /// The quad of the edge that a corner leads, if it does.
+    #[cold]
+    #[inline(never)]
+    fn write_edge_quad(&self, corner: u32, out: &mut Quads) {
+        if self.leads_quad(corner) {
+            let across = match self.parent.twin[corner as usize] {
+                NONE => [self.beta(corner, false), self.beta(corner, true)],
+                twin => [self.parent.next(twin), twin],
+            };
+            out.push([self.parent.next(corner), corner, across[0], across[1]], true);
         }
-        context.for_each(parts, |(first, part)| {
-            let (quads, _) = part.as_chunks_mut::<4>();
-            let skip = self.skipped_before(first) as usize;
-            let mut skipped = self.without_quad[skip..].iter().copied().peekable();
-            let mut v = first;
-            for quad in quads {
-                while skipped.next_if_eq(&v).is_some() {
-                    v += 1;
-                }
-                if !write_regular_fan(self.parent, v, quad) {
-                    self.write_vertex_face(v, quad);
-                }
-                v += 1;
-            }
-        })
     }
 
     /// The face of a vertex: its fan, framed by β and κ on a boundary.
@@ -138,25 +118,53 @@ impl CornerSplit<'_> {
     }
 }
 
-fn write_run(context: &Context, out: &mut [u32], first: u32) -> Result<()> {
-    context.fill(out, 1, |start, part| {
-        for (value, slot) in (first + start as u32..).zip(part) {
-            *slot = value;
+/// The quads near a regular quad, but for its own child; false if it is none.
+#[inline(always)]
+fn write_regular_quads(walker: QuadWalker, corner: u32, near: u8, out: &mut Quads) -> bool {
+    let own = |i: usize| corner + (i as u32 & 3);
+    let edge = |i: usize, twin: u32| [own(i + 1), own(i), walker.turn(twin, 1), twin];
+    if near == LEADS_NONE {
+        return true;
+    }
+    if near == LEADS_OUTER {
+        let twins = walker.twins(corner);
+        if !walker.holds(twins[1]) || !walker.holds(twins[3]) {
+            return false;
         }
-    })
+        out.push(edge(1, twins[1]), true);
+        out.push(edge(3, twins[3]), true);
+        return true;
+    }
+    let Some(ring) = walker.ring(corner) else { return false };
+    let vertex = |i: usize| {
+        let across = walker.turn(ring.across[i], 1);
+        [own(i), ring.across[(i + 3) % 4], ring.beyond[i], across]
+    };
+    if near == LEADS_ALL {
+        (0..4).for_each(|i| out.push(vertex(i), true));
+        (0..4).for_each(|i| out.push(edge(i, ring.across[i]), true));
+    } else {
+        // Written whether they count or not: which corners lead is hard to
+        // foresee, and a store costs less than a wrong guess.
+        (0..4).for_each(|i| out.push(vertex(i), near & (STARTS << i) != 0));
+        (0..4).for_each(|i| out.push(edge(i, ring.across[i]), near & (LEADS << i) != 0));
+    }
+    true
 }
 
-/// Writes the fan of an interior vertex of valence 4; false on a boundary.
-#[inline]
-fn write_regular_fan(parent: &Mesh, vertex: u32, out: &mut [u32; 4]) -> bool {
-    let start = parent.start[vertex as usize];
-    let clockwise = parent.twin[start as usize];
-    if clockwise == NONE {
-        return false;
+/// Quads being written one after the other.
+struct Quads<'o> {
+    out: &'o mut [[u32; 4]],
+    place: usize,
+}
+
+impl Quads<'_> {
+    /// Writes a quad; it stays only if it counts.
+    #[inline(always)]
+    fn push(&mut self, quad: [u32; 4], counts: bool) {
+        if let Some(slot) = self.out.get_mut(self.place) {
+            *slot = quad;
+            self.place += usize::from(counts);
+        }
     }
-    // Both ways from the start, so that only the opposite corner is a second
-    // dependent load.
-    let second = parent.ccw(start);
-    *out = [start, second, parent.ccw(second), parent.next(clockwise)];
-    true
 }

@@ -1,6 +1,6 @@
 //! Where the children of a split come from.
 
-use super::corner_split::{Child, CornerSplit, leads_edge};
+use super::corner_split::{Child, CornerSplit};
 use crate::mesh::Mesh;
 
 /// The parent element of a refined vertex. Corners and faces are numbered in
@@ -58,20 +58,20 @@ impl CornerSplit<'_> {
 
     /// The origins of all child faces, in order.
     pub(crate) fn face_origins(&self) -> impl Iterator<Item = FaceOrigin> + '_ {
-        let parent = self.parent;
-        let layout = &parent.layout;
-        let kept = if layout.side() == 4 { layout.irregular_faces() } else { layout.faces() };
-        let leads = move |&c: &u32| leads_edge(c, parent.twin[c as usize]);
-        let rim = if self.lays_anchor() { &parent.rim[..] } else { &[] };
-        let edges = (0..layout.corners()).filter(leads).chain(rim.iter().copied());
-        let irregular = self.irregular.iter().map(|&(v, _)| v);
-        let mut skipped = self.without_quad.iter().copied().peekable();
-        let quads = (0..parent.start.len() as u32).filter(move |v| skipped.next_if_eq(v).is_none());
-        (0..kept)
-            .map(FaceOrigin::Face)
-            .chain(irregular.map(FaceOrigin::Vertex))
-            .chain((kept..layout.faces()).map(FaceOrigin::Face))
-            .chain(edges.map(FaceOrigin::Edge))
-            .chain(quads.map(FaceOrigin::Vertex))
+        let layout = &self.parent.layout;
+        let irregular = self.irregular.iter().map(|&(v, _)| FaceOrigin::Vertex(v));
+        let first = self.vertex_faces;
+        let kept = if first == 0 { 0 } else { layout.face_of(first - 1) + 1 };
+        let vertex = move |c: u32| {
+            self.starts_quad(c).then(|| FaceOrigin::Vertex(self.parent.vert[c as usize]))
+        };
+        let edge = move |c: u32| self.leads_quad(c).then_some(FaceOrigin::Edge(c));
+        let corners = (0..first).flat_map(move |c| vertex(c).into_iter().chain(edge(c)));
+        let quads = (first..layout.corners()).step_by(4).flat_map(move |c| {
+            let face = FaceOrigin::Face(layout.face_of(c));
+            let vertices = (c..c + 4).filter_map(vertex);
+            std::iter::once(face).chain(vertices).chain((c..c + 4).filter_map(edge))
+        });
+        (0..kept).map(FaceOrigin::Face).chain(irregular).chain(corners).chain(quads)
     }
 }
