@@ -1,3 +1,6 @@
 //! The `carvel` command.
 
+#[cfg(test)]
+mod preview;
+
 fn main() {}
