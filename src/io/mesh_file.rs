@@ -200,7 +200,7 @@ impl MeshFile {
         let labels = self.labels().into_iter().flat_map(|(_, labels)| &labels.names);
         for name in labels.chain(&self.material_libraries) {
             let padded = name.trim_ascii().len() != name.len();
-            if name.is_empty() || padded || name.ends_with('\\') || has_control(name) {
+            if name.is_empty() || padded || has_control(name) {
                 return Err(bad_name(name));
             }
         }
@@ -241,7 +241,7 @@ fn has_control(name: &str) -> bool {
     name.chars().any(|c| c.is_control() && c != '\t')
 }
 
-fn bad_name(name: &str) -> Error {
+pub(super) fn bad_name(name: &str) -> Error {
     let shown = super::place::quote(name.as_bytes());
     Error::new(ErrorKind::InvalidText, format!("{shown} is not a name that a mesh file can hold"))
 }

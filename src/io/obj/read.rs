@@ -69,13 +69,13 @@ impl<'a> Parser<'a> {
             b"f" => self.face(place, words),
             b"vt" => self.uv(place, words),
             b"vn" => self.normal(place, words),
-            b"o" => set(&mut self.objects, place, words),
-            b"g" => set(&mut self.groups, place, words),
-            b"usemtl" => set(&mut self.materials, place, words),
-            b"s" => self.smoothing(place, words),
-            b"mtllib" => self.library(place, words),
+            b"o" => set(&mut self.objects, place, &words),
+            b"g" => set(&mut self.groups, place, &words),
+            b"usemtl" => set(&mut self.materials, place, &words),
+            b"s" => self.smoothing(place, &words),
+            b"mtllib" => self.library(place, &words),
             [b'#', ..] => comment(place, line),
-            _ => self.drop_statement(place, keyword, words),
+            _ => self.drop_statement(place, keyword, &words),
         }
     }
 
@@ -159,16 +159,16 @@ impl<'a> Parser<'a> {
         Ok(())
     }
 
-    fn smoothing(&mut self, place: Place<'_>, words: Words<'_>) -> Result<()> {
-        match place.text(words.rest())? {
+    fn smoothing(&mut self, place: Place<'_>, words: &Words<'_>) -> Result<()> {
+        match name(place, words)? {
             "off" | "0" => self.smoothing.set(""),
             name => self.smoothing.set(name),
         }
         Ok(())
     }
 
-    fn library(&mut self, place: Place<'_>, words: Words<'_>) -> Result<()> {
-        let name = place.text(words.rest())?;
+    fn library(&mut self, place: Place<'_>, words: &Words<'_>) -> Result<()> {
+        let name = name(place, words)?;
         if !name.is_empty() {
             self.mesh.material_libraries.push(name.to_owned());
         }
@@ -176,7 +176,12 @@ impl<'a> Parser<'a> {
     }
 
     /// Counts a statement that is none of ours, if it is a statement at all.
-    fn drop_statement(&mut self, place: Place<'_>, keyword: &[u8], words: Words<'_>) -> Result<()> {
+    fn drop_statement(
+        &mut self,
+        place: Place<'_>,
+        keyword: &[u8],
+        words: &Words<'_>,
+    ) -> Result<()> {
         let plain = |b: &u8| b.is_ascii_alphanumeric() || matches!(b, b'_' | b'-' | b'.');
         if !keyword[0].is_ascii_alphabetic() || !keyword.iter().all(plain) || keyword.len() > 40 {
             return Err(place.unexpected(keyword, "an OBJ keyword"));
@@ -274,9 +279,19 @@ fn beyond(place: Place<'_>, face: usize, what: &str, written: i64, count: usize)
     place.out_of_range(face as u64, 1, &what, written, count as u64)
 }
 
-fn set(labels: &mut LabelBuilder, place: Place<'_>, words: Words<'_>) -> Result<()> {
-    labels.set(place.text(words.rest())?);
+fn set(labels: &mut LabelBuilder, place: Place<'_>, words: &Words<'_>) -> Result<()> {
+    labels.set(name(place, words)?);
     Ok(())
+}
+
+/// A name is all that is left of the line. One that ends with a backslash (and
+/// blanks, else the next line would belong to it) could not be written back.
+fn name<'w>(place: Place<'_>, words: &Words<'w>) -> Result<&'w str> {
+    let name = place.text(words.rest())?;
+    if name.ends_with('\\') {
+        return Err(place.syntax("blanks between a backslash and the end of the line"));
+    }
+    Ok(name)
 }
 
 fn finish(builder: LabelBuilder, into: &mut crate::io::Labels) -> u64 {

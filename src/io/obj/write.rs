@@ -1,11 +1,13 @@
 //! Writes OBJ: vertices, texture coordinates, normals, then the faces.
 
 use crate::base::{NONE, Result};
+use crate::io::mesh_file::bad_name;
 use crate::io::sink::Sink;
 use crate::io::{Labels, MeshFile, VertexColors};
 use std::io::Write;
 
 pub(in crate::io) fn write<W: Write>(sink: &mut Sink<'_, W>, mesh: &MeshFile) -> Result<()> {
+    check_names(mesh)?;
     for library in &mesh.material_libraries {
         statement(sink, "mtllib", library);
         sink.pause()?;
@@ -14,6 +16,13 @@ pub(in crate::io) fn write<W: Write>(sink: &mut Sink<'_, W>, mesh: &MeshFile) ->
     records(sink, "vt", mesh.uvs.iter().map(|uv| &uv[..]))?;
     records(sink, "vn", mesh.normals.iter().map(|normal| &normal[..]))?;
     faces(sink, mesh)
+}
+
+/// A backslash at the end of a line would join the next one to the name.
+fn check_names(mesh: &MeshFile) -> Result<()> {
+    let labels = mesh.labels().into_iter().flat_map(|(_, labels)| &labels.names);
+    let mut names = labels.chain(&mesh.material_libraries);
+    names.find(|name| name.ends_with('\\')).map_or(Ok(()), |name| Err(bad_name(name)))
 }
 
 fn statement<W: Write>(sink: &mut Sink<'_, W>, keyword: &str, rest: &str) {

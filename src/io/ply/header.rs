@@ -7,6 +7,12 @@ use crate::io::place::{Place, quote};
 use crate::io::{Encoding, NumberType};
 use std::io::BufRead;
 
+/// Tables, and columns of a table, that a header may have. No real file comes
+/// near; without a bound the search for doubles would be quadratic.
+const MOST: usize = 1024;
+/// The longest name.
+const LONGEST_NAME: usize = 255;
+
 /// What follows the header.
 #[derive(Debug)]
 pub(super) struct Header {
@@ -82,7 +88,7 @@ fn push_element(
     words: &mut Words<'_>,
     elements: &mut Vec<ElementType>,
 ) -> Result<()> {
-    let name = place.text(words.next().unwrap_or_default())?;
+    let name = name(place, words, elements.len())?;
     let word = words.next().unwrap_or_default();
     let Some(count) = integer(word).and_then(|n| u64::try_from(n).ok()) else {
         return Err(place.unexpected(word, "the number of elements"));
@@ -115,12 +121,25 @@ fn push_property(
     } else {
         Kind::Scalar(number_type(place, first)?)
     };
-    let name = place.text(words.next().unwrap_or_default())?;
-    if name.is_empty() || element.properties.iter().any(|property| property.name == name) {
+    let name = name(place, words, element.properties.len())?;
+    if element.properties.iter().any(|property| property.name == name) {
         return Err(place.syntax(format!("{} is no new property", quote(name.as_bytes()))));
     }
     element.properties.push(Property { name: name.to_owned(), kind });
     end(place, words, ())
+}
+
+/// The name of a new table or column, of which there are `before` already.
+fn name<'w>(place: Place<'_>, words: &mut Words<'w>, before: usize) -> Result<&'w str> {
+    let word = words.next().unwrap_or_default();
+    if word.is_empty() || word.len() > LONGEST_NAME {
+        return Err(place.unexpected(word, "a name"));
+    }
+    if before >= MOST {
+        let reason = format!("more than {MOST} elements or properties are not supported");
+        return Err(place.error(ErrorKind::Unsupported, reason));
+    }
+    place.text(word)
 }
 
 fn number_type(place: Place<'_>, name: &[u8]) -> Result<NumberType> {

@@ -123,10 +123,10 @@ impl<'a, R: BufRead> Binary<'a, R> {
     #[inline]
     fn little<const N: usize>(&mut self) -> Result<Option<[u8; N]>> {
         let mut array = self.bytes.array::<N>()?;
-        if self.big_endian {
-            if let Some(array) = &mut array {
-                array.reverse();
-            }
+        if self.big_endian
+            && let Some(array) = &mut array
+        {
+            array.reverse();
         }
         Ok(array)
     }
