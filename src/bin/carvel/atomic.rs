@@ -40,8 +40,8 @@ fn replace(path: &Path, permissions: Option<fs::Permissions>, bytes: &[u8]) -> i
     if let Some(wanted) = permissions.or_else(ordinary) {
         builder.permissions(wanted);
     }
-    // The system's own words, without the temporary name that tempfile adds.
-    let bare = |e: io::Error| e.raw_os_error().map_or(e, io::Error::from_raw_os_error);
+    // The reason alone, without the temporary name that tempfile adds.
+    let bare = |e: io::Error| io::Error::from(e.kind());
     let mut file = builder.tempfile_in(directory.unwrap_or(Path::new("."))).map_err(bare)?;
     file.write_all(bytes)?;
     file.persist(path).map(drop).map_err(|e| e.error)

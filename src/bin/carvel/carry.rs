@@ -130,7 +130,9 @@ pub fn unload(load: &Load, refined: Vec<Vec<f64>>, control: &MeshFile, file: &mu
 fn colors(control: &MeshFile, mut values: Vec<f64>) -> Option<VertexColors> {
     let VertexColors { width, values: before, kind } = control.colors.as_ref()?;
     if before.iter().all(|c| (0.0..=1.0).contains(c)) {
-        values.iter_mut().for_each(|c| *c = c.clamp(0.0, 1.0));
+        for c in &mut values {
+            *c = c.clamp(0.0, 1.0);
+        }
     }
     Some(VertexColors { width: *width, values, kind: *kind })
 }
@@ -150,15 +152,13 @@ fn unit(normal: &[f64; 3]) -> [f64; 3] {
 /// Hands the names of control faces down. `faces` gives the control file's face
 /// for every refined one.
 pub fn inherit(control: &MeshFile, faces: &[u32], file: &mut MeshFile) {
+    let of_faces = |labels: &Labels| -> Vec<u32> {
+        let name = |&f: &u32| labels.of_face.get(f as usize).copied().unwrap_or(NONE);
+        faces.iter().map(name).collect()
+    };
     let down = |labels: &Labels| Labels {
         names: labels.names.clone(),
-        of_face: match labels.is_empty() {
-            true => Vec::new(),
-            false => {
-                let name = |&f: &u32| labels.of_face.get(f as usize).copied().unwrap_or(NONE);
-                faces.iter().map(name).collect()
-            }
-        },
+        of_face: if labels.is_empty() { Vec::new() } else { of_faces(labels) },
     };
     file.objects = down(&control.objects);
     file.groups = down(&control.groups);
@@ -179,6 +179,7 @@ pub fn bytes(load: &Load, control: &MeshFile, vertices: u64, corners: u64, faces
 }
 
 #[cfg(test)]
+#[allow(clippy::float_cmp)] // what is exact is compared exactly
 mod tests {
     use super::*;
     use carvel::io::ColorType;

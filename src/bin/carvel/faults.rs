@@ -1,6 +1,6 @@
 //! Mistakes in a mesh, as lines of the file that it was read from.
 
-use crate::exit::{Doing, Failure};
+use crate::exit::{Doing, Exit, Failure};
 use crate::input::Input;
 use carvel::mesh::{Defect, Defects};
 use carvel::{Element, Error, ErrorKind};
@@ -9,8 +9,8 @@ use serde_json::{Value, json};
 /// A mistake: what and where.
 #[derive(Debug, Clone)]
 pub struct Fault {
-    /// The library's kind of error.
-    pub kind: ErrorKind,
+    /// The library's kind of error, if the library found it.
+    pub kind: Option<ErrorKind>,
     /// The line of the face or vertex concerned, where the reader knows it.
     pub line: Option<u32>,
     /// One line, vertices and faces numbered as the file's format does.
@@ -21,7 +21,7 @@ impl Fault {
     /// A defect of the mesh in a file.
     pub fn of_defect(input: &Input, defect: &Defect) -> Self {
         Self {
-            kind: defect.kind(),
+            kind: Some(defect.kind()),
             line: line_of(input, &defect.elements()),
             message: renumbered(defect, input.base()).to_string(),
         }
@@ -32,7 +32,7 @@ impl Fault {
         let counted = !error.elements().is_empty() && input.base() != 0;
         let counting = if counted { " (counted from 0)" } else { "" };
         Self {
-            kind: error.kind(),
+            kind: Some(error.kind()),
             line: line_of(input, error.elements()),
             message: format!("{error}{counting}"),
         }
@@ -47,7 +47,7 @@ impl Fault {
     /// The same for programs.
     pub fn json(&self) -> Value {
         json!({
-            "kind": format!("{:?}", self.kind),
+            "kind": self.kind.map(|kind| format!("{kind:?}")),
             "line": self.line,
             "message": self.message,
         })
@@ -69,7 +69,7 @@ pub fn failure(input: &Input, defects: &Defects) -> Failure {
         Defects::Soup(list) => list,
     };
     let Some(first) = list.first() else {
-        return Failure::new(crate::exit::Exit::Mesh, format!("{}: a defective mesh", input.name));
+        return Failure::new(Exit::Mesh, format!("{}: a defective mesh", input.name));
     };
     let fault = Fault::of_defect(input, first);
     let more = match list.len() - 1 {
@@ -78,9 +78,9 @@ pub fn failure(input: &Input, defects: &Defects) -> Failure {
         n => format!(" (and {n} more defects: see carvel info)"),
     };
     Failure {
-        exit: crate::exit::Exit::of(fault.kind, Doing::Working),
+        exit: Exit::of(first.kind(), Doing::Working),
         message: fault.in_file(input) + &more,
-        kind: Some(fault.kind),
+        kind: fault.kind,
         silent: false,
     }
 }

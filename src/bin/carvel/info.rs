@@ -1,13 +1,12 @@
 //! The command `info`.
 
 use crate::args::InfoArgs;
-use crate::exit::{Doing, Exit, Failure};
+use crate::exit::{Exit, Failure};
 use crate::faults::Fault;
 use crate::input::{Input, ends_the_run};
 use crate::report;
 use crate::session::Session;
 use crate::text::{counted, grouped, path_name};
-use carvel::ErrorKind;
 use carvel::mesh::{BuildOptions, Built, Defects, NonManifold, Survey, build};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
@@ -26,7 +25,7 @@ pub fn run(args: &InfoArgs) -> Result<Exit, Failure> {
             .and_then(|input| Description::of(&session, input));
         let code = match &result {
             Ok(description) if description.faults.is_empty() => Exit::Success,
-            Ok(description) => Exit::of(description.faults[0].kind, Doing::Working),
+            Ok(_) => Exit::Mesh,
             Err(failure) => session.console.failure(failure),
         };
         exit = if exit == Exit::Success { code } else { exit };
@@ -67,7 +66,7 @@ impl Description {
     fn of(session: &Session, input: Input) -> Result<Self, Failure> {
         if input.file.face_sizes.is_empty() {
             let message = input.no_faces().to_owned();
-            let faults = vec![Fault { kind: ErrorKind::FaceTooSmall, line: None, message }];
+            let faults = vec![Fault { kind: None, line: None, message }];
             return Ok(Self { input, topology: None, faults });
         }
         let (topology, faults) = match attempt(session, &input, NonManifold::Error) {

@@ -64,7 +64,7 @@ fn main() -> ExitCode {
         Some(Command::Info(args)) => info::run(args),
         Some(Command::Preview(args)) => picture::run(args),
     };
-    exit.map_or_else(|failure| Console::plain().failure(&failure), |exit| exit).into()
+    exit.unwrap_or_else(|failure| Console::plain().failure(&failure)).into()
 }
 
 /// Prints clap's help, version or complaint.

@@ -79,13 +79,10 @@ fn output_of(
     }
     directories.push(path.to_path_buf());
     let name = file_name(input)?;
-    Ok(match wish.format {
-        Some(format) => (path.join(name).with_extension(format.name()), format),
-        None => {
-            let same = Format::from_path(input).map_err(fail)?;
-            (path.join(name), same)
-        }
-    })
+    if let Some(format) = wish.format {
+        return Ok((path.join(name).with_extension(format.name()), format));
+    }
+    Ok((path.join(name), Format::from_path(input).map_err(fail)?))
 }
 
 fn picture_of(
@@ -108,7 +105,8 @@ fn picture_of(
 /// True if a path stands for a directory in which names are kept.
 fn is_directory(path: &Path, inputs: usize) -> Result<bool, Failure> {
     let slash = path.as_os_str().as_encoded_bytes().ends_with(b"/");
-    if path.is_dir() || (slash && !path.exists()) {
+    // The components leave the slash out, with which a file does not exist.
+    if path.is_dir() || (slash && !path.components().as_path().exists()) {
         return Ok(true);
     }
     if slash {

@@ -68,6 +68,7 @@ fn too_large(value: f64, vertex: usize) -> Error {
 }
 
 #[cfg(test)]
+#[allow(clippy::float_cmp)] // what is exact is compared exactly
 mod tests {
     use super::*;
 

@@ -162,7 +162,9 @@ fn positions<'a>(work: &Work<'a>) -> Cow<'a, [[f64; 3]]> {
 
 /// From faces of the mesh to faces of the file.
 fn sources(mesh: &Mesh, mut faces: Vec<u32>) -> Vec<u32> {
-    faces.iter_mut().for_each(|face| *face = mesh.face_source(*face as usize) as u32);
+    for face in &mut faces {
+        *face = mesh.face_source(*face as usize) as u32;
+    }
     faces
 }
 

@@ -60,6 +60,7 @@ impl<const N: usize> ByCorner<'_, N> {
 }
 
 #[cfg(test)]
+#[allow(clippy::float_cmp)] // what is exact is compared exactly
 mod tests {
     use super::*;
 

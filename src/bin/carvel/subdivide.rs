@@ -1,11 +1,12 @@
 //! The command `subdivide`.
 
-use crate::args::{Chosen, SubdivideArgs};
+use crate::args::{Chosen, NumberType, SubdivideArgs};
 use crate::exit::{Doing, Exit, Failure};
 use crate::faults;
 use crate::input::{Input, ends_the_run};
 use crate::picture;
 use crate::places::{self, Job, Wish};
+use crate::precise::Precise;
 use crate::preview::View;
 use crate::refine::{Engine, Outcome, Work, predict};
 use crate::report::{self, Done, Level, Seconds, Settings};
@@ -109,17 +110,23 @@ impl Run<'_> {
             0 => self.convert(input, &mut seconds)?,
             _ => self.refine(&input, &mut seconds)?,
         };
-        let notes = self.tell(job, &made);
         self.write(job, &made.file, &mut seconds)?;
         seconds.total = start.elapsed();
+        let notes = self.tell(job, &made);
         let Made { levels, anchored, scratch, .. } = made;
         let done = Done { levels, seconds, scratch, anchored, notes };
-        self.session.console.summary(&self.summary(job, &done));
+        if !self.args.json {
+            self.session.console.summary(&self.summary(job, &done));
+        }
         Ok(done)
     }
 
     /// Level 0: everything as it is, whether or not it is a surface.
     fn convert(&self, input: Input, seconds: &mut Seconds) -> Result<Made, Failure> {
+        if self.args.precision == NumberType::F32 {
+            let positions = input.file.positions.as_flattened();
+            f32::narrow(positions, 3).map_err(|e| faults::of_work(&input, &e))?;
+        }
         // The topology is wanted for its counts only; what has none is converted too.
         let built = if self.args.json {
             timed(&mut seconds.build, || self.build(&input)).ok()
@@ -167,7 +174,7 @@ impl Run<'_> {
             .map_err(|defects| faults::failure(input, &defects))
     }
 
-    /// Tells what was or will be lost, one line each.
+    /// Tells what was lost, one line each. (A failure has its one line alone.)
     fn tell(&self, job: &Job, made: &Made) -> Vec<String> {
         let mut notes = made.notes.clone();
         notes.extend(io::losses(&made.file, job.format));
@@ -228,9 +235,9 @@ impl Run<'_> {
 /// What policy `cut` did, if it did anything.
 fn cut(file: &MeshFile, built: &Built) -> Option<String> {
     let copies = built.mesh.vertices() - file.positions.len();
-    (copies > 0).then(|| {
-        let copies = counted(copies as u64, "copy").replace("copys", "copies");
-        format!("cut open where it is not manifold: {copies} of vertices made")
+    (copies > 0).then(|| match copies {
+        1 => "not manifold, cut open: 1 copy of a vertex was made".to_owned(),
+        n => format!("not manifold, cut open: {n} copies of vertices were made"),
     })
 }
 

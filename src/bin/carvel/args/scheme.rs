@@ -150,15 +150,13 @@ impl SchemeArgs {
     fn preset(&self) -> Result<Scheme, Failure> {
         let scheme = match self.scheme {
             Name::ThreePoint => match self.w {
-                Some(w) => Scheme::three_point(w).map_err(|e| e.in_context("--w")),
+                Some(w) => Scheme::three_point(w),
                 None => Fraction::new(1, 32).and_then(Scheme::three_point),
             },
             Name::DooSabin => Ok(Scheme::doo_sabin()),
             Name::Quartic => Ok(Scheme::quartic()),
-            Name::Bspline => Scheme::b_spline(self.degree()?).map_err(|e| e.in_context("--degree")),
-            Name::Averaging => {
-                Scheme::dual(self.dual_passes()?).map_err(|e| e.in_context("--passes"))
-            }
+            Name::Bspline => Scheme::b_spline(self.degree()?),
+            Name::Averaging => Scheme::dual(self.dual_passes()?),
         };
         scheme.map_err(|e| Failure::from_error(&e, Doing::Asking))
     }
