@@ -41,12 +41,21 @@ impl Console {
     /// Names what is being done now.
     pub fn phase(&self, what: &str, name: &str) {
         self.bar.set_position(0);
-        self.bar.set_message(format!("{what} {name}"));
+        self.bar.set_message(String::new());
+        self.bar.set_prefix(format!("{what} {name}"));
     }
 
     /// Says which part of it is done, in [0, 1].
     pub fn part(&self, done: f64) {
         self.bar.set_position((done.clamp(0.0, 1.0) * STEPS as f64) as u64);
+    }
+
+    /// Says how many bytes are done, and of how many where that is known.
+    pub fn bytes(&self, done: u64, total: Option<u64>) {
+        match total {
+            Some(total) if total > 0 => self.part(done as f64 / total as f64),
+            _ => self.bar.set_message(format!("{} MB ", done / 1_000_000)),
+        }
     }
 
     /// Takes the bar away.
@@ -93,6 +102,6 @@ fn show_later(bar: &ProgressBar) {
 }
 
 fn style() -> ProgressStyle {
-    let template = "{msg} [{bar:30}] {percent}% {elapsed}";
+    let template = "{prefix} [{bar:30}] {percent}% {msg}{elapsed}";
     ProgressStyle::with_template(template).unwrap_or_else(|_| ProgressStyle::default_bar())
 }

@@ -42,8 +42,7 @@ impl Session {
     /// A hook for readers and writers, which count bytes.
     pub fn bytes_hook(&self) -> impl Fn(u64, Option<u64>) -> bool + '_ {
         |done, total| {
-            let total = total.unwrap_or_default();
-            self.console.part(if total == 0 { 0.0 } else { done as f64 / total as f64 });
+            self.console.bytes(done, total);
             !self.is_cancelled()
         }
     }
