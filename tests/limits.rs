@@ -60,12 +60,8 @@ impl<T: Scalar> Setup<T> {
     }
 
     fn hierarchy(&self, levels: u32) -> Hierarchy {
-        let made = Hierarchy::new(
-            &Context::serial(),
-            self.mesh.clone(),
-            self.scheme.clone(),
-            levels,
-        );
+        let made =
+            Hierarchy::new(&Context::serial(), self.mesh.clone(), self.scheme.clone(), levels);
         made.expect("a small hierarchy")
     }
 }
@@ -197,8 +193,7 @@ fn sixty_four_levels_are_too_many_at_once() {
         assert!(bytes < LITTLE, "{levels} levels took {bytes} bytes");
         assert_eq!(refiner.bytes(), 0);
         let (mesh, scheme) = (setup.mesh.clone(), setup.scheme.clone());
-        let (refused, bytes) =
-            peak_of(|| Hierarchy::new(&Context::serial(), mesh, scheme, levels));
+        let (refused, bytes) = peak_of(|| Hierarchy::new(&Context::serial(), mesh, scheme, levels));
         assert_kind(refused, ErrorKind::TooLarge);
         assert!(bytes < LITTLE, "{levels} levels took {bytes} bytes");
         assert!(begun.elapsed() < AT_ONCE);
@@ -476,7 +471,8 @@ fn absurd_widths_are_refused() {
     for width in [usize::MAX, usize::MAX / 2, 1 << 61] {
         let attributes = [Attribute { values: &[][..], width }];
         for levels in 0..2 {
-            let refused = Refiner::new().refine(&Context::serial(), &setup.task(levels, &attributes));
+            let refused =
+                Refiner::new().refine(&Context::serial(), &setup.task(levels, &attributes));
             assert_kind(refused, ErrorKind::LengthMismatch);
         }
         let refused = setup.hierarchy(0).refine(&Context::serial(), 0, &[], width, &mut [0.0; 0]);

@@ -139,15 +139,8 @@ fn all_defects_are_listed_at_once() {
 
 #[test]
 fn edges_and_vertices_are_listed_together() {
-    let faces: &[&[usize]] = &[
-        &[0, 1, 2],
-        &[1, 0, 3],
-        &[0, 1, 4],
-        &[5, 6, 7],
-        &[5, 8, 9],
-        &[10, 11, 12],
-        &[12, 13, 14],
-    ];
+    let faces: &[&[usize]] =
+        &[&[0, 1, 2], &[1, 0, 3], &[0, 1, 4], &[5, 6, 7], &[5, 8, 9], &[10, 11, 12], &[12, 13, 14]];
     let expected = [
         Defect::NonManifoldEdge { edge: (0, 1), faces: vec![0, 1, 2] },
         Defect::NonManifoldVertex { vertex: 5 },
@@ -252,11 +245,9 @@ fn cubes_that_share_a_vertex_are_cut_apart() {
 #[test]
 fn a_moebius_strip_is_refused_and_cut_open() {
     let n = 5;
-    let quad = |i: usize| match i + 1 < n {
-        true => vec![i, i + 1, n + i + 1, n + i],
-        false => vec![i, n, 0, n + i],
-    };
-    let faces: Vec<_> = (0..n).map(quad).collect();
+    let twisted = vec![n - 1, n, 0, 2 * n - 1];
+    let quad = |i: usize| vec![i, i + 1, n + i + 1, n + i];
+    let faces: Vec<_> = (0..n - 1).map(quad).chain([twisted]).collect();
     let refused = Soup::new(2 * n, &faces).build(&BuildOptions::default()).expect_err("one-sided");
     assert_eq!(Error::from(refused).kind(), ErrorKind::InconsistentOrientation);
     let survey = Survey::of(&check_cut(2 * n, &faces));

@@ -138,9 +138,9 @@ impl<'a> Expected<'a> {
         let rim = self.rim();
         let edges = self.topo.interior_edges().into_iter().chain(rim);
         let edges = edges.map(|c| FaceOrigin::Edge(c as u32));
-        let has_face = |v: &usize| match self.topo.is_boundary(*v) {
-            true => self.anchored,
-            false => self.topo.fans[*v].len() >= 3,
+        let has_face = |v: &usize| {
+            let inside = self.topo.is_interior(*v) && self.topo.fans[*v].len() >= 3;
+            inside || (self.anchored && self.topo.is_boundary(*v))
         };
         let vertices = (0..self.topo.fans.len()).filter(has_face);
         let vertices = vertices.map(|v| FaceOrigin::Vertex(v as u32));

@@ -70,9 +70,8 @@ pub fn apply_exactly(stages: &[Vec<Row<Exact>>], values: &[BigRational]) -> Vec<
         let terms: Vec<_> = row.iter().map(|(v, w)| (&w.0, &x[*v as usize])).collect();
         BigRational::dot(&terms)
     };
-    let stage = |x: Vec<BigRational>, rows: &Vec<Row<Exact>>| {
-        rows.iter().map(|row| dot(row, &x)).collect()
-    };
+    let stage =
+        |x: Vec<BigRational>, rows: &Vec<Row<Exact>>| rows.iter().map(|row| dot(row, &x)).collect();
     stages.iter().fold(values.to_vec(), stage)
 }
 

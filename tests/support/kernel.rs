@@ -132,11 +132,7 @@ pub fn poly_of<T: Scalar>(refined: &Refined<T>) -> Poly<f64> {
     with_positions(faces_of(refined), &refined.positions, refined.anchored)
 }
 
-fn with_positions<T: Scalar>(
-    faces: Vec<Vec<usize>>,
-    positions: &[T],
-    anchored: bool,
-) -> Poly<f64> {
+fn with_positions<T: Scalar>(faces: Vec<Vec<usize>>, positions: &[T], anchored: bool) -> Poly<f64> {
     let point = |p: &[T]| [p[0], p[1], p[2]].map(T::to_f64);
     Poly { anchored, ..Poly::new(positions.chunks(3).map(point).collect(), faces) }
 }
