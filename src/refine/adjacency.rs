@@ -348,11 +348,13 @@ impl<'a, 'b> Links<'a, 'b> {
             }
         };
         for i in (0..4).filter(|&i| near & (STARTS << i) != 0) {
-            // The outer corners of the edges around the vertex; the other side
-            // of the edge before has the other half of its quad.
+            // The outer corners of the edges around the vertex; the twin of the
+            // corner before has the other half of its quad.
+            let before = (i + 3) % 4;
+            let around = if leads(before) { inner[before] + 3 } else { inner[before] - 1 };
             let beyond = self.inner(ring.beyond[i]) + 1;
             let clockwise = self.inner(walker.turn(ring.across[i], 1)) + 1;
-            out.push([(inner[(i + 3) % 4] ^ 2) + 1, beyond, clockwise, inner[i] + 1], LEADS_NONE);
+            out.push([around, beyond, clockwise, inner[i] + 1], LEADS_NONE);
         }
         for i in (0..4).filter(|&i| leads(i)) {
             let next = (i + 1) % 4;

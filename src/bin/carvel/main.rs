@@ -1,6 +1,75 @@
-//! The `carvel` command.
+//! The `carvel` command: control meshes in, smooth surfaces out.
+//!
+//! | module | its one idea |
+//! |---|---|
+//! | `args` | what can be asked for |
+//! | `exit` | exit codes, and which mistake has which |
+//! | `session` | what all commands share: threads, limits, interruption |
+//! | `console` | every line and the progress bar on the standard error stream |
+//! | `input`, `places` | what is read, and where results go |
+//! | `faults` | mistakes in a mesh, as lines of its file |
+//! | `subdivide`, `info`, `picture` | the three commands |
+//! | `refine`, `precise`, `carry`, `seams` | one refinement with all its data |
+//! | `report`, `text` | JSON, numbers and names for people |
+//! | `preview` | the renderer |
 
-#[cfg(test)]
+mod args;
+mod atomic;
+mod carry;
+mod console;
+mod exit;
+mod faults;
+mod info;
+mod input;
+mod interrupt;
+mod memory;
+mod picture;
+mod places;
+mod precise;
 mod preview;
+mod refine;
+mod report;
+mod seams;
+mod session;
+mod subdivide;
+mod text;
 
-fn main() {}
+use args::{Cli, Command};
+use clap::Parser;
+use console::Console;
+use exit::Exit;
+use std::process::ExitCode;
+
+/// What is said to someone who types `carvel` and nothing else.
+const WELCOME: &str = "\
+carvel turns a coarse mesh of any topology into a smooth subdivision surface.
+
+  carvel subdivide cow.obj -o smooth.obj --levels 3 --preview smooth.png
+  carvel info cow.obj
+  carvel preview cow.obj -o cow.png --wireframe overlay
+
+Reads and writes OBJ, OFF, PLY and STL. The default scheme is three-point
+(w = 1/32), whose surfaces are smooth to the second order; four more are there.
+Help: carvel --help, or carvel subdivide --help for schemes and boundaries.
+";
+
+fn main() -> ExitCode {
+    let cli = match Cli::try_parse() {
+        Ok(cli) => cli,
+        Err(error) => return usage(&error),
+    };
+    let exit = match &cli.command {
+        None => report::print(WELCOME),
+        Some(Command::Subdivide(args)) => subdivide::run(args),
+        Some(Command::Info(args)) => info::run(args),
+        Some(Command::Preview(args)) => picture::run(args),
+    };
+    exit.unwrap_or_else(|failure| Console::plain().failure(&failure)).into()
+}
+
+/// Prints clap's help, version or complaint.
+fn usage(error: &clap::Error) -> ExitCode {
+    // A closed stream is no reason for another complaint.
+    let _ = error.print();
+    if error.use_stderr() { Exit::Usage.into() } else { Exit::Success.into() }
+}

@@ -1,0 +1,181 @@
+//! One refinement with all its data: a mesh file in, a mesh file out.
+
+use crate::args::NumberType;
+use crate::carry::{self, Load};
+use crate::memory::zeroed;
+use crate::precise::Precise;
+use carvel::io::MeshFile;
+use carvel::mesh::Built;
+use carvel::{Attribute, Boundary, Context, Error, Mesh, Output, Prediction, Refiner};
+use carvel::{ErrorKind, Result, Scheme, Task};
+use std::borrow::Cow;
+
+/// A refiner of either precision, which keeps its memory from mesh to mesh.
+#[derive(Debug)]
+pub enum Engine {
+    /// Computes in single precision.
+    Single(Refiner<f32>),
+    /// Computes in double precision.
+    Double(Refiner<f64>),
+}
+
+/// What to refine and how far.
+#[derive(Debug, Clone, Copy)]
+pub struct Work<'a> {
+    /// The control mesh as its file holds it.
+    pub control: &'a MeshFile,
+    /// Its topology.
+    pub built: &'a Built,
+    /// The scheme.
+    pub scheme: &'a Scheme,
+    /// The number of steps, at least 1.
+    pub levels: u32,
+    /// The predicted sizes.
+    pub plan: &'a Prediction,
+}
+
+/// A refined mesh.
+#[derive(Debug)]
+pub struct Outcome {
+    /// The mesh, ready to be written.
+    pub file: MeshFile,
+    /// One line about data that had to be left out.
+    pub dropped: Option<String>,
+    /// Whether a further step must treat the mesh as anchored.
+    pub anchored: bool,
+    /// Bytes of scratch memory that the kernel held.
+    pub scratch: u64,
+}
+
+impl Engine {
+    /// An engine that computes in a number type.
+    pub fn new(number: NumberType) -> Self {
+        match number {
+            NumberType::F32 => Self::Single(Refiner::new()),
+            NumberType::F64 => Self::Double(Refiner::new()),
+        }
+    }
+
+    /// Refines.
+    ///
+    /// # Errors
+    /// As [`Refiner::refine_into`]; all sizes are checked before anything is
+    /// allocated.
+    pub fn run(&mut self, context: &Context, work: &Work) -> Result<Outcome> {
+        match self {
+            Self::Single(refiner) => run(refiner, context, work),
+            Self::Double(refiner) => run(refiner, context, work),
+        }
+    }
+}
+
+/// Predicts all levels, and refuses those that cannot be numbered by naming the
+/// first of them and its size.
+///
+/// # Errors
+/// [`ErrorKind::TooLarge`].
+pub fn predict(mesh: &Mesh, scheme: &Scheme, levels: u32) -> Result<Prediction> {
+    let whole = Prediction::new(mesh, scheme, levels);
+    if let Ok(plan) = &whole
+        && plan.last().check_index_type().is_ok()
+    {
+        return whole;
+    }
+    let fitting = |level| {
+        let plan = Prediction::new(mesh, scheme, level)?;
+        plan.last().check_index_type().map_err(|e| {
+            let message = format!("level {level} of {levels} is too large: {e}");
+            Error::new(ErrorKind::TooLarge, message)
+        })
+    };
+    (1..=levels).try_for_each(fitting)?;
+    whole
+}
+
+fn run<T: Precise>(refiner: &mut Refiner<T>, context: &Context, work: &Work) -> Result<Outcome> {
+    let load = Load::of(work.control, work.built.vertex_source.as_deref());
+    check_memory::<T>(context, work, &load)?;
+    let columns = load.columns.iter().map(|c| T::narrow(&c.values, c.width));
+    let columns = columns.collect::<Result<Vec<_>>>()?;
+    let attributes = load.columns.iter().zip(&columns);
+    let attributes: Vec<_> = attributes
+        .map(|(column, values)| Attribute { values: &values[..], width: column.width })
+        .collect();
+    let points = positions(work);
+    let positions = T::narrow(points.as_flattened(), 3)?;
+    let task = Task {
+        mesh: &work.built.mesh,
+        scheme: work.scheme,
+        levels: work.levels,
+        positions: &positions,
+        attributes: &attributes,
+        face_sources: true,
+    };
+    let (mut file, faces, refined) = fill(refiner, context, &task, work.plan)?;
+    carry::inherit(work.control, &sources(&work.built.mesh, faces), &mut file);
+    carry::unload(&load, refined, work.control, &mut file);
+    let anchored = work.scheme.boundary() != Boundary::None;
+    Ok(Outcome { file, dropped: load.dropped, anchored, scratch: refiner.bytes() })
+}
+
+/// Refines into the arrays of a mesh file; also returns the control face of
+/// every face, and the refined columns.
+fn fill<T: Precise>(
+    refiner: &mut Refiner<T>,
+    context: &Context,
+    task: &Task<T>,
+    plan: &Prediction,
+) -> Result<(MeshFile, Vec<u32>, Vec<Vec<f64>>)> {
+    let last = plan.last();
+    let mut file = MeshFile {
+        face_sizes: zeroed(0, last.faces)?,
+        face_vertices: zeroed(0, last.corners)?,
+        ..MeshFile::default()
+    };
+    let mut faces = zeroed(0, last.faces)?;
+    let columns = task.attributes.iter();
+    let mut columns = columns
+        .map(|a| zeroed(T::default(), last.vertices * a.width as u64))
+        .collect::<Result<Vec<_>>>()?;
+    file.positions = T::points(last.vertices, |positions| {
+        let output = Output {
+            face_sizes: Some(&mut file.face_sizes),
+            face_vertices: &mut file.face_vertices,
+            face_sources: Some(&mut faces),
+            positions,
+            attributes: columns.iter_mut().map(Vec::as_mut_slice).collect(),
+        };
+        refiner.refine_into(context, task, output)
+    })?;
+    let columns = columns.into_iter().map(T::widen).collect::<Result<_>>()?;
+    Ok((file, faces, columns))
+}
+
+/// The positions of the mesh's vertices, some of which may be copies.
+fn positions<'a>(work: &Work<'a>) -> Cow<'a, [[f64; 3]]> {
+    let positions = &work.control.positions;
+    match &work.built.vertex_source {
+        None => Cow::Borrowed(positions),
+        Some(source) => Cow::Owned(source.iter().map(|&v| positions[v as usize]).collect()),
+    }
+}
+
+/// From faces of the mesh to faces of the file.
+fn sources(mesh: &Mesh, mut faces: Vec<u32>) -> Vec<u32> {
+    for face in &mut faces {
+        *face = mesh.face_source(*face as usize) as u32;
+    }
+    faces
+}
+
+/// Counts the result as a mesh file, with all that it carries.
+fn check_memory<T: Precise>(context: &Context, work: &Work, load: &Load) -> Result<()> {
+    let last = work.plan.last();
+    let width = 3 + load.columns.iter().map(|c| c.width as u64).sum::<u64>();
+    let scratch = work.plan.scratch_bytes(width, T::BYTES);
+    // In single precision the kernel's arrays exist beside the file's.
+    let narrow = if T::BYTES < 8 { width * T::BYTES * last.vertices } else { 0 };
+    let file = 24 * last.vertices + 4 * last.corners + 8 * last.faces;
+    let carried = carry::bytes(load, work.control, last.vertices, last.corners, last.faces);
+    context.check_memory(scratch + narrow + file + carried)
+}

@@ -1,0 +1,13 @@
+//! The `carvel` command as its users meet it.
+
+#![cfg(feature = "cli")]
+// What is exact is compared exactly.
+#![allow(clippy::float_cmp)]
+
+mod bench;
+mod carried;
+mod hostile;
+mod pictures;
+mod places;
+mod refined;
+mod usage;
