@@ -3,6 +3,7 @@
 mod context;
 mod error;
 mod fraction;
+pub(crate) mod memory;
 mod scalar;
 
 pub use context::{CancelFlag, Context, ContextBuilder};

@@ -1,9 +1,9 @@
 //! Values of any width on their way through the levels, up to four lanes at a time.
 
 use super::kernel::Value;
-use super::memory::resize;
 use super::step::{Scratch, Step};
 use super::values::{gather, scatter};
+use crate::base::memory::resize;
 use crate::base::{Context, Result, Scalar};
 
 /// Up to four lanes of one attribute, with the memory of every level.

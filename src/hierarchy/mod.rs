@@ -6,7 +6,6 @@
 mod columns;
 mod kernel;
 mod levels;
-mod memory;
 mod predict;
 mod refiner;
 mod step;

@@ -5,10 +5,10 @@
 //! the same topology, see [`super::Hierarchy`].
 
 use super::columns::{Column, Place};
-use super::memory::{resize, zeroed};
 use super::predict::Prediction;
 use super::step::Step;
 use super::values::{check, check_overflow, lanes};
+use crate::base::memory::{resize, zeroed};
 use crate::base::{Context, Error, ErrorKind, Result, Scalar};
 use crate::mesh::Mesh;
 use crate::refine::CornerSplit;
@@ -136,7 +136,9 @@ impl<T: Scalar> Refiner<T> {
     /// Refines into the caller's arrays. On an error their content is undefined.
     ///
     /// The result does not depend on threads, and n steps at once give the same
-    /// bytes as one step n times.
+    /// bytes as one step n times on the meshes of a [`super::Hierarchy`]. A mesh
+    /// built anew from the faces of a level gives the same surface, numbered
+    /// otherwise.
     ///
     /// # Errors
     /// [`ErrorKind::LengthMismatch`] for a slice of another length than

@@ -1,8 +1,7 @@
 //! The values of one step: rows applied where they are needed, kernels elsewhere.
 
 use super::kernel::{Value, corner_grid, grid_children, quad_corners, touches_rim, vertex_grid};
-use super::memory;
-use crate::base::{Context, Fraction, Result, Scalar};
+use crate::base::{Context, Fraction, Result, Scalar, memory};
 use crate::mesh::QuadWalker;
 use crate::refine::CornerSplit;
 use crate::scheme::{CornerWeights, RowSink, Scheme, SchemeRows, Taps};

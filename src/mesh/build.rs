@@ -2,7 +2,7 @@
 
 use super::pairing::{BadEdge, Pairing, pair};
 use super::{Defect, Defects, Layout, Mesh, Near, VertexSet, anchor, cut, order};
-use crate::base::{Context, Element, Error, ErrorKind, NONE, Result};
+use crate::base::{Context, Element, Error, ErrorKind, NONE, Result, memory};
 
 /// What to do with edges and vertices that are not manifold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -98,6 +98,9 @@ fn check_sizes(vertices: usize, sizes: &[u32], indices: &[u32]) -> Result<Vec<u3
             format!("{vertices} vertices and {corners} corners do not fit 32-bit indices"),
         ));
     }
+    // What the arrays below will take, per vertex and per corner.
+    memory::try_out::<[u32; 4]>(vertices)?;
+    memory::try_out::<[u32; 8]>(indices.len())?;
     let mut sum = 0;
     let mut offsets = Vec::with_capacity(sizes.len() + 1);
     offsets.push(0);

@@ -17,35 +17,24 @@ fn a_refinement_can_be_continued_from_its_file() {
             run(&format!("{mesh} -o two.obj --levels 2"));
             run("two.obj -o continued.obj --levels 1 --anchored");
             let [at_once, continued] =
-                ["three.obj", "continued.obj"].map(|name| shape(&bench.get(name)));
+                ["three.obj", "continued.obj"].map(|name| shape(&bench.mesh(name)));
             assert_eq!(at_once, continued, "{mesh} {options}");
         }
     }
 }
 
-/// The faces of an OBJ file by the rounded positions of their vertices, whatever
-/// the numbering.
-fn shape(obj: &str) -> Vec<Vec<[i64; 3]>> {
-    let mut vertices = Vec::new();
-    let mut faces = Vec::new();
-    for line in obj.lines() {
-        let mut words = line.split_whitespace();
-        match words.next() {
-            Some("v") => {
-                let round = |w: &str| (w.parse::<f64>().unwrap() * 1e9).round() as i64;
-                let xyz: Vec<i64> = words.map(round).collect();
-                vertices.push([xyz[0], xyz[1], xyz[2]]);
-            }
-            Some("f") => {
-                let vertex = |w: &str| vertices[w.parse::<usize>().unwrap() - 1];
-                let mut face: Vec<[i64; 3]> = words.map(vertex).collect();
-                let first = (0..face.len()).min_by_key(|&i| face[i]).unwrap();
-                face.rotate_left(first);
-                faces.push(face);
-            }
-            _ => {}
-        }
-    }
+/// The faces of a mesh by the rounded positions of their vertices, whatever the
+/// numbering.
+fn shape(mesh: &carvel::io::MeshFile) -> Vec<Vec<[i64; 3]>> {
+    let mut corners = mesh.face_vertices.iter();
+    let vertex = |&v: &u32| mesh.positions[v as usize].map(|x| (x * 1e9).round() as i64);
+    let cycle = |&size: &u32| {
+        let mut face: Vec<_> = corners.by_ref().take(size as usize).map(vertex).collect();
+        let first = (0..face.len()).min_by_key(|&i| face[i]).unwrap();
+        face.rotate_left(first);
+        face
+    };
+    let mut faces: Vec<_> = mesh.face_sizes.iter().map(cycle).collect();
     faces.sort_unstable();
     faces
 }
