@@ -1,5 +1,5 @@
-//! **carvel** is a subdivision-surface kernel: a control mesh of any topology
-//! goes in, a smooth surface comes out.
+#![doc = include_str!("../README.md")]
+#![forbid(unsafe_code)]
 
 pub mod base;
 pub mod hierarchy;

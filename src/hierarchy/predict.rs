@@ -51,7 +51,8 @@ impl Prediction {
 
     /// The counts of the last level.
     pub fn last(&self) -> &Counts {
-        self.levels.last().expect("level 0 is always there")
+        // Level 0 is always there.
+        &self.levels[self.levels.len() - 1]
     }
 
     /// Bytes of the adjacency of all levels but the first.

@@ -165,13 +165,21 @@ impl<T: Scalar> Refiner<T> {
         output.check(task, plan)?;
         let largest = task.check_values(context)?;
         if task.levels == 0 {
-            return copy(task, output);
+            copy(task, output);
+            return Ok(());
         }
         // Where no value can come near the limits, nothing is checked again.
         let bound = largest * task.scheme.growth().powi(task.levels.min(1 << 20) as i32);
         let watch = !T::from_f64(bound).is_finite();
         self.levels.resize_with(task.levels as usize, Recycled::default);
         Run { context, task, plan, watch }.levels(self, output)
+    }
+}
+
+impl<'a, T> Task<'a, T> {
+    /// A task for positions alone; set the other fields for more.
+    pub fn new(mesh: &'a Mesh, scheme: &'a Scheme, levels: u32, positions: &'a [T]) -> Self {
+        Self { mesh, scheme, levels, positions, attributes: &[], face_sources: false }
     }
 }
 
@@ -239,7 +247,7 @@ impl<T: Scalar> Output<'_, T> {
 }
 
 /// Level 0: the control mesh itself.
-fn copy<T: Scalar>(task: &Task<T>, output: Output<T>) -> Result<()> {
+fn copy<T: Scalar>(task: &Task<T>, output: Output<T>) {
     let mesh = task.mesh;
     if let Some(sizes) = output.face_sizes {
         for (slot, size) in sizes.iter_mut().zip(mesh.face_sizes()) {
@@ -256,7 +264,6 @@ fn copy<T: Scalar>(task: &Task<T>, output: Output<T>) -> Result<()> {
     for (out, attribute) in output.attributes.into_iter().zip(task.attributes) {
         out.copy_from_slice(attribute.values);
     }
-    Ok(())
 }
 
 /// A call in progress.
@@ -368,12 +375,11 @@ impl<T: Scalar> Run<'_, T> {
         }
         kept.resize_with(kept.len().max(level + 2), Vec::new);
         let (from, to) = kept.split_at_mut(level + 1);
-        let to = match out {
-            Some(out) => out,
-            None => {
-                resize(&mut to[0], 0, split.counts.faces as usize)?;
-                &mut to[0]
-            }
+        let to = if let Some(out) = out {
+            out
+        } else {
+            resize(&mut to[0], 0, split.counts.faces as usize)?;
+            &mut to[0]
         };
         for (slot, origin) in to.iter_mut().zip(split.face_origins()) {
             let face = origin.representative(split.parent());

@@ -186,7 +186,8 @@ impl<'a> Step<'a> {
         context.fill(added, 1, |start, part| by_row(corners + start as u32, part))
     }
 
-    /// The univariate cut, whose tensor square is C_½ on a quad under any rule.
+    /// The univariate cut, whose tensor square is the corner operator of the
+    /// split on a quad, under any rule.
     fn cut<T: Scalar>(&self) -> [T; 2] {
         let mut weights = CornerWeights::<f64>::new(self.scheme.rule(), Fraction::HALF);
         let cut = weights.of(2);

@@ -14,7 +14,7 @@ pub(super) fn check(mesh: &Mesh) -> Result<()> {
         let vertex = mesh.vert[corner as usize];
         if mesh.fan(vertex).take(3).count() > 2 {
             return Err(refusal(
-                format!("boundary vertex {vertex} has more than two faces"),
+                &format!("boundary vertex {vertex} has more than two faces"),
                 Element::Vertex(u64::from(vertex)),
             ));
         }
@@ -40,12 +40,12 @@ fn check_face(mesh: &Mesh, corner: u32) -> Result<()> {
     }
     let source = mesh.face_source(face as usize) as u64;
     Err(refusal(
-        format!("face {source} has boundary edges that do not meet at a corner of a larger face"),
+        &format!("face {source} has boundary edges that do not meet at a corner of a larger face"),
         Element::Face(source),
     ))
 }
 
-fn refusal(why: String, element: Element) -> Error {
+fn refusal(why: &str, element: Element) -> Error {
     Error::new(ErrorKind::NotAnchored, format!("the mesh cannot be anchored: {why}"))
         .with_elements([element])
 }

@@ -102,18 +102,6 @@ impl Layout {
         if corner >= first { turn_in_quad(first, corner, 1) } else { self.next_irregular(corner) }
     }
 
-    /// As [`Self::next`], for a corner that may be [`crate::base::NONE`], whose successor
-    /// means nothing.
-    #[inline(always)]
-    pub(crate) fn next_or_none(&self, corner: u32) -> u32 {
-        // NONE is above every first corner.
-        if corner >= self.first_quad {
-            turn_in_quad(self.first_quad, corner, 1)
-        } else {
-            self.next_irregular(corner)
-        }
-    }
-
     /// The previous corner of the same face.
     #[inline(always)]
     pub(crate) fn prev(&self, corner: u32) -> u32 {

@@ -202,8 +202,10 @@ impl Mesh {
         let lists = [&self.vert, &self.twin, &self.start, &self.rim, &self.special];
         let lists: usize = lists.iter().map(|list| list.capacity()).sum();
         let source = self.face_source.as_ref().map_or(0, Vec::capacity);
+        let near = (self.near.irregular.capacity() + self.near.quads.capacity()) as u64;
         self.layout.bytes()
             + self.special_set.bytes()
+            + near
             + 4 * (lists + self.corner_tags.capacity() + source) as u64
     }
 

@@ -40,7 +40,7 @@ impl Near {
             let v = mesh.vert[c as usize];
             let leads = c < twin && twin != NONE;
             let starts = mesh.start[v as usize] == c && !mesh.special_set.contains(v);
-            u8::from(leads) * LEADS | u8::from(starts) * STARTS
+            (u8::from(leads) * LEADS) | (u8::from(starts) * STARTS)
         };
         let quads = (first..mesh.layout.corners()).step_by(4);
         let quad = |c| (0..4).map(|i| corner(c + i) << i).fold(0, |a, b| a | b);
@@ -63,10 +63,5 @@ impl Near {
             None => self.irregular[corner as usize] |= bits,
             Some(local) => self.quads[local as usize / 4] |= bits << (local & 3),
         }
-    }
-
-    /// Bytes held.
-    pub(crate) fn bytes(&self) -> u64 {
-        (self.irregular.capacity() + self.quads.capacity()) as u64
     }
 }

@@ -22,7 +22,7 @@ impl VertexSet {
 
     #[inline(always)]
     pub(crate) fn contains(&self, vertex: u32) -> bool {
-        self.0.get(vertex as usize / 64).is_some_and(|word| word >> (vertex % 64) & 1 == 1)
+        self.0.get(vertex as usize / 64).is_some_and(|word| (word >> (vertex % 64)) & 1 == 1)
     }
 
     /// Bytes held.

@@ -44,7 +44,7 @@ impl Survey {
             match mesh.valence(v) {
                 0 => {}
                 n if mesh.is_boundary_vertex(v) => {
-                    *survey.boundary_valences.entry(n).or_default() += 1
+                    *survey.boundary_valences.entry(n).or_default() += 1;
                 }
                 n => *survey.interior_valences.entry(n).or_default() += 1,
             }

@@ -292,7 +292,7 @@ impl<'a, 'b> Links<'a, 'b> {
     /// that is interior, and its child's fan starts there.
     fn face_bits(&self, corner: u32, special: &VertexSet) -> u8 {
         let leads = self.across_face(corner) != NONE;
-        u8::from(leads) * LEADS | u8::from(!special.contains(corner)) * STARTS
+        (u8::from(leads) * LEADS) | (u8::from(!special.contains(corner)) * STARTS)
     }
 
     /// All children near any quad, corner by corner.
@@ -301,10 +301,14 @@ impl<'a, 'b> Links<'a, 'b> {
     fn write_quad(&self, corner: u32, special: &VertexSet, out: &mut Part, starts: &mut [u32; 4]) {
         let own: [u32; 4] = std::array::from_fn(|i| corner + i as u32);
         let bits = own.map(|c| self.face_bits(c, special));
-        let bits = (0..4).fold(0, |sum, i| sum | bits[i] << i);
+        let bits = (0..4).fold(0, |sum, i| sum | (bits[i] << i));
         out.push(own.map(|c| self.across_face(c)), bits);
-        own.iter().for_each(|&c| self.push_vertex(c, out));
-        own.iter().for_each(|&c| self.push_edge(c, out));
+        for c in own {
+            self.push_vertex(c, out);
+        }
+        for c in own {
+            self.push_edge(c, out);
+        }
         *starts = own.map(|c| self.child_start(c));
     }
 
@@ -388,7 +392,7 @@ impl<'a, 'b> Links<'a, 'b> {
             let twin = twins[i as usize];
             twin != NONE && (own + i < twin || !self.is_outer(corner, i, twin))
         };
-        let bits = u8::from(leads(1)) << 1 | u8::from(leads(3)) << 3;
+        let bits = (u8::from(leads(1)) << 1) | (u8::from(leads(3)) << 3);
         out.push(twins, bits);
     }
 
@@ -534,7 +538,7 @@ impl Part<'_> {
 #[inline(always)]
 fn count(bits: u8) -> u32 {
     const COUNTS: u64 = 0x4332_3221_3221_2110;
-    (COUNTS >> (4 * u32::from(bits & 15)) & 15) as u32
+    ((COUNTS >> (4 * u32::from(bits & 15))) & 15) as u32
 }
 
 /// Counts the child quads before each irregular corner's own and each quad's.

@@ -276,9 +276,10 @@ fn vertex_faces(parent: &Mesh, anchor: &Anchor) -> (Vec<(u32, u32)>, Vec<u32>) {
     let mut irregular = Vec::new();
     let mut without_quad = Vec::new();
     for &v in &parent.special {
-        let size = match parent.on_rim(v) {
-            true => anchor.rim_face_size(parent, v),
-            false => parent.fan(v).count() as u32,
+        let size = if parent.on_rim(v) {
+            anchor.rim_face_size(parent, v)
+        } else {
+            parent.fan(v).count() as u32
         };
         if size != 4 {
             without_quad.push(v);

@@ -114,9 +114,10 @@ impl Counts {
     }
 
     fn child(&self, sizes: &Sizes, irregular: (u64, u64)) -> Self {
-        let (faces, corners) = match self.triangles {
-            true => (self.faces, self.corners),
-            false => (self.irregular_faces, self.irregular_corners),
+        let (faces, corners) = if self.triangles {
+            (self.faces, self.corners)
+        } else {
+            (self.irregular_faces, self.irregular_corners)
         };
         Self {
             vertices: sizes.vertices,

@@ -67,11 +67,12 @@ impl Scheme {
         if let Some(t) = passes.iter().find(too_large) {
             return Err(out_of_range(format!("pass {t} is not within ±{LARGEST_PASS}")));
         }
-        Ok(Self {
-            passes: passes.to_vec(),
-            rule: CornerRule::default(),
-            boundary: Boundary::default(),
-        })
+        Ok(Self::from_passes(passes))
+    }
+
+    /// A scheme with passes that are known to be in range.
+    pub(super) fn from_passes(passes: &[Fraction]) -> Self {
+        Self { passes: passes.to_vec(), rule: CornerRule::default(), boundary: Boundary::default() }
     }
 
     /// The same scheme with another corner operator on n-gons.

@@ -17,7 +17,7 @@ const LARGEST_DEGREE: u32 = 64;
 impl Scheme {
     /// Doo and Sabin's scheme (1978): biquadratic B-splines, C¹.
     pub fn doo_sabin() -> Self {
-        Self::dual(&[]).expect("no pass is out of range")
+        Self::from_passes(&[])
     }
 
     /// The founding paper's family: w = 1/32 is its scheme, C²; w = 0 is
@@ -38,7 +38,7 @@ impl Scheme {
 
     /// The tensor-product quartic B-spline.
     pub fn quartic() -> Self {
-        Self::dual(&[Fraction::ZERO]).expect("pass 0 is in range")
+        Self::from_passes(&[Fraction::ZERO])
     }
 
     /// The tensor-product B-spline of an even degree.
@@ -47,7 +47,7 @@ impl Scheme {
     /// [`crate::ErrorKind::ParameterOutOfRange`] unless the degree is even and
     /// within 2 and 64.
     pub fn b_spline(degree: u32) -> Result<Self> {
-        if degree < 2 || degree > LARGEST_DEGREE || !degree.is_multiple_of(2) {
+        if !(2..=LARGEST_DEGREE).contains(&degree) || !degree.is_multiple_of(2) {
             return Err(out_of_range(format!(
                 "degree {degree}: the dual family has the even degrees 2 to {LARGEST_DEGREE}"
             )));

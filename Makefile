@@ -1,0 +1,53 @@
+# carvel: `make demo` shows what it does, `make test` checks everything.
+
+CARGO ?= cargo
+FUZZ_SECONDS ?= 60
+FUZZ_TARGETS = read_obj read_off read_ply read_stl build_mesh
+
+.PHONY: demo test lint deep fuzz bench tools clean
+
+# Refines the cow and the founding paper's torus into out/.
+demo: tools
+	$(CARGO) build --release --locked
+	assets/demo.sh
+
+# Format, lints, every test, the documentation's examples, the lean build.
+test: tools lint
+	$(CARGO) test --locked
+	$(CARGO) build --locked --no-default-features
+	$(CARGO) bench --locked --no-run
+	OUT=out/test $(MAKE) --no-print-directory demo
+
+lint: tools
+	$(CARGO) fmt --check
+	$(CARGO) clippy --locked --all-targets -- -D warnings
+	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --locked --no-deps --lib --quiet
+
+# Minutes of work: more random meshes, a large mesh, fuzzing.
+deep: tools
+	PROPTEST_CASES=512 $(CARGO) test --release --locked
+	$(CARGO) test --release --locked --test large -- --ignored --nocapture
+	$(MAKE) --no-print-directory fuzz
+
+# FUZZ_SECONDS on each reader and on mesh construction.
+fuzz:
+	@if cargo +nightly fuzz --version >/dev/null 2>&1; then \
+	    set -e; for target in $(FUZZ_TARGETS); do \
+	        mkdir -p fuzz/corpus/$$target; \
+	        cargo +nightly fuzz run $$target fuzz/corpus/$$target fuzz/seeds/$$target -- \
+	            -max_total_time=$(FUZZ_SECONDS); \
+	    done; \
+	else \
+	    echo "SKIPPED: fuzzing needs a nightly toolchain and cargo-fuzz (cargo install cargo-fuzz)"; \
+	fi
+
+# Speed; results with date and machine are kept in benches/README.md.
+bench: tools
+	$(CARGO) bench --locked
+
+tools:
+	@assets/install.sh
+
+clean:
+	$(CARGO) clean
+	rm -rf out
