@@ -196,7 +196,23 @@ fn check_numbering(
         let turns = matches!(origin, FaceOrigin::Vertex(v) if topo.is_interior(v as usize));
         let normal = |cycle| if turns { canonical_cycle(cycle) } else { cycle };
         assert_eq!(normal(cycle), normal(expected.face(origin)), "face {f} from {origin:?}");
+        check_representative(parent, &topo, origin);
     }
+}
+
+/// The face whose data a child inherits: its own, its edge's, one at its vertex.
+fn check_representative(parent: &Mesh, topo: &Topology, origin: FaceOrigin) {
+    let face = origin.representative(parent) as usize;
+    let right = match origin {
+        FaceOrigin::Face(f) => face == f as usize,
+        FaceOrigin::Edge(c) => face == topo.face[c as usize],
+        FaceOrigin::Vertex(v) if topo.is_boundary(v as usize) => {
+            face == topo.face[topo.fans[v as usize][0]]
+        }
+        FaceOrigin::Vertex(v) => topo.fans[v as usize].iter().any(|&c| topo.face[c] == face),
+        other => panic!("{other:?} is no parent in a corner split"),
+    };
+    assert!(right, "{origin:?} is represented by face {face}");
 }
 
 // --------------------------------------------------------------------- oracle
