@@ -37,7 +37,7 @@ fn random_values<T: Scalar>(n: usize, seed: u64) -> Vec<T> {
 // -------------------------------------------------------------------- oracle
 
 proptest! {
-    #![proptest_config(config(64))]
+    #![proptest_config(config(256))]
 
     #[test]
     fn kernel_agrees_with_the_oracle(
@@ -106,7 +106,7 @@ fn check_irregular(mesh: &Mesh, counts: &Counts) {
 }
 
 proptest! {
-    #![proptest_config(config(64))]
+    #![proptest_config(config(256))]
 
     #[test]
     fn counts_are_as_predicted_and_every_level_is_valid(
@@ -148,7 +148,7 @@ fn largest(mesh: &Poly<f64>) -> f64 {
 }
 
 proptest! {
-    #![proptest_config(config(64))]
+    #![proptest_config(config(256))]
 
     #[test]
     fn affine_maps_commute_with_refinement(
@@ -214,7 +214,7 @@ fn polygons_of_boundary(mesh: &Poly<f64>, corners: impl Fn(usize) -> bool) -> Po
 }
 
 proptest! {
-    #![proptest_config(config(64))]
+    #![proptest_config(config(256))]
 
     #[test]
     fn boundary_does_not_see_the_interior(
@@ -273,7 +273,7 @@ fn check_step_by_step<T: Scalar>(control: &Poly<f64>, scheme: &Scheme, levels: u
 }
 
 proptest! {
-    #![proptest_config(config(48))]
+    #![proptest_config(config(192))]
 
     #[test]
     fn relabelling_only_renumbers_the_result(
@@ -357,7 +357,7 @@ fn check_hierarchy<T: Scalar>(
 }
 
 proptest! {
-    #![proptest_config(config(16))]
+    #![proptest_config(config(64))]
 
     #[test]
     fn threads_and_chunks_do_not_matter(
@@ -429,7 +429,7 @@ fn assert_lanes<T: Scalar>(made: &[T], expected: &[T], tolerance: f64) {
 }
 
 proptest! {
-    #![proptest_config(config(24))]
+    #![proptest_config(config(96))]
 
     #[test]
     fn attributes_follow_the_rows_of_positions(
@@ -484,7 +484,7 @@ impl Job {
 }
 
 proptest! {
-    #![proptest_config(config(16))]
+    #![proptest_config(config(64))]
 
     #[test]
     fn a_used_refiner_forgets_what_it_did(
@@ -507,7 +507,7 @@ proptest! {
 // -------------------------------------------------------------------- lineage
 
 proptest! {
-    #![proptest_config(config(48))]
+    #![proptest_config(config(192))]
 
     #[test]
     fn face_sources_are_composed_origins(
