@@ -1,5 +1,4 @@
 //! OFF, PLY and STL: what is kept, what is noted, what is refused and where.
-#![cfg(feature = "io")]
 // What was written must read back as the very same numbers.
 #![allow(clippy::float_cmp)]
 
@@ -9,7 +8,7 @@ use carvel::io::{
 };
 use carvel::{Element, ErrorKind};
 
-const COW: &str = include_str!("../assets/spot/spot_control_mesh.obj");
+const COW: &str = include_str!("../../assets/spot/spot_control_mesh.obj");
 const ENCODINGS: [Encoding; 3] = [Encoding::Binary, Encoding::BinaryBigEndian, Encoding::Ascii];
 
 fn read(data: impl AsRef<[u8]>, format: Format) -> MeshFile {

@@ -1,5 +1,4 @@
 //! Files on disk: what is replaced, what is left alone, what is reported.
-#![cfg(feature = "io")]
 
 use carvel::ErrorKind;
 use carvel::io::{self, Format, MeshFile, ReadOptions, WriteOptions};

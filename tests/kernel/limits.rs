@@ -1,8 +1,6 @@
 //! Hostile values and sizes, memory, progress and cancelling: an error with a
 //! kind, never a panic, and nothing built in vain.
 
-mod support;
-
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Arc, Mutex};
 use std::time::{Duration, Instant};
@@ -13,10 +11,10 @@ use carvel::{
     Refiner, Scheme, Task,
 };
 
-use support::allocation::{Counter, peak_of};
-use support::bases;
-use support::kernel::{self, Soup, assert_same_bytes};
-use support::poly::Poly;
+use crate::support::allocation::{Counter, peak_of};
+use crate::support::bases;
+use crate::support::kernel::{self, Soup, assert_same_bytes};
+use crate::support::poly::Poly;
 
 #[global_allocator]
 static COUNTER: Counter = Counter;

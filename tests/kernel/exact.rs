@@ -1,26 +1,24 @@
 //! The kernel's weights in exact arithmetic: no tolerance hides a wrong one.
 
-mod support;
-
 use std::collections::HashMap;
 
 use carvel::Hierarchy;
 use num_rational::BigRational;
 use num_traits::{One, ToPrimitive};
 
-use support::bases;
-use support::cases::{MODES, RULES, TAME, all_schemes, rounding};
-use support::exact::{Exact, Row, apply_exactly, apply_naively, stages};
-use support::generate::{self, Kind};
-use support::kernel;
-use support::number::{Point, ratio};
-use support::poly::Poly;
-use support::reference::{Boundary, Rule, Scheme};
-use support::rng::Rng;
-use support::tensor::{assert_exactly_same, grid_mesh, mesh_of_values, random_grid};
-use support::tolerance::ROW;
-use support::topology::Topology;
-use support::univariate::{self, Curve};
+use crate::support::bases;
+use crate::support::cases::{MODES, RULES, TAME, all_schemes, rounding};
+use crate::support::exact::{Exact, Row, apply_exactly, apply_naively, stages};
+use crate::support::generate::{self, Kind};
+use crate::support::kernel;
+use crate::support::number::{Point, ratio};
+use crate::support::poly::Poly;
+use crate::support::reference::{Boundary, Rule, Scheme};
+use crate::support::rng::Rng;
+use crate::support::tensor::{assert_exactly_same, grid_mesh, mesh_of_values, random_grid};
+use crate::support::tolerance::ROW;
+use crate::support::topology::Topology;
+use crate::support::univariate::{self, Curve};
 
 /// Meshes whose faces the cosine rule knows exactly: of 3, 4 and 6 sides, with
 /// their mirror images too.

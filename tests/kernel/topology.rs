@@ -4,8 +4,6 @@
 //! are found again by brute force, from the face list and from the numbering
 //! that the documentation of the corner split promises.
 
-mod support;
-
 use std::collections::HashMap;
 
 use carvel::Mesh;
@@ -13,15 +11,15 @@ use carvel::base::NONE;
 use carvel::refine::{FaceOrigin, VertexOrigin};
 use proptest::prelude::*;
 
-use support::bases;
-use support::cases::{all_schemes, config, schemes};
-use support::compare::canonical_cycle;
-use support::generate::{Kind, tagged_meshes};
-use support::kernel::{self, Soup};
-use support::manifold::assert_manifold;
-use support::poly::Poly;
-use support::reference::{self, Boundary, FaceParent, Scheme, VertexParent};
-use support::topology::Topology;
+use crate::support::bases;
+use crate::support::cases::{all_schemes, config, schemes};
+use crate::support::compare::canonical_cycle;
+use crate::support::generate::{Kind, tagged_meshes};
+use crate::support::kernel::{self, Soup};
+use crate::support::manifold::assert_manifold;
+use crate::support::poly::Poly;
+use crate::support::reference::{self, Boundary, FaceParent, Scheme, VertexParent};
+use crate::support::topology::Topology;
 
 const LEVELS: u32 = 3;
 

@@ -1,7 +1,5 @@
 //! Building meshes: what is refused and why, what is repaired, what is kept.
 
-mod support;
-
 use std::time::{Duration, Instant};
 
 use carvel::base::NONE;
@@ -9,14 +7,14 @@ use carvel::mesh::{BuildOptions, Built, Defect, Defects, NonManifold, Survey, bu
 use carvel::{Context, Element, Error, ErrorKind, Mesh};
 use proptest::prelude::*;
 
-use support::bases;
-use support::cases::{MODES, config};
-use support::generate::{self, Kind, meshes};
-use support::kernel::{self, Soup};
-use support::poly::Poly;
-use support::reference::{Boundary, Rule, Scheme, anchored_defect};
-use support::rng::Rng;
-use support::topology::Topology;
+use crate::support::bases;
+use crate::support::cases::{MODES, config};
+use crate::support::generate::{self, Kind, meshes};
+use crate::support::kernel::{self, Soup};
+use crate::support::poly::Poly;
+use crate::support::reference::{Boundary, Rule, Scheme, anchored_defect};
+use crate::support::rng::Rng;
+use crate::support::topology::Topology;
 
 use Element::{Edge, Face, Vertex};
 
@@ -296,7 +294,7 @@ proptest! {
     /// What is accepted is a manifold, and what is a manifold is accepted.
     #[test]
     fn acceptance_is_the_brute_force_check((vertices, faces) in random_soups()) {
-        let sound = support::manifold::defects(vertices, &faces).is_empty();
+        let sound = crate::support::manifold::defects(vertices, &faces).is_empty();
         let built = Soup::new(vertices, &faces).build(&BuildOptions::default());
         prop_assert_eq!(built.is_ok(), sound);
     }

@@ -1,15 +1,13 @@
 //! The kernel against the golden files: meshes that an independent reference
 //! refined in exact arithmetic. Compared as unordered meshes.
 
-mod support;
-
 use carvel::base::Scalar;
 
-use support::compare::assert_same;
-use support::golden::{self, Case};
-use support::kernel;
-use support::reference::Split;
-use support::tolerance::{GOLDEN, GOLDEN_SINGLE};
+use crate::support::compare::assert_same;
+use crate::support::golden::{self, Case};
+use crate::support::kernel;
+use crate::support::reference::Split;
+use crate::support::tolerance::{GOLDEN, GOLDEN_SINGLE};
 
 /// Runs a check on every case of the dual split.
 fn each_dual_case(check: impl Fn(&Case)) {

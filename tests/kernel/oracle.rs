@@ -1,30 +1,28 @@
 //! Tests of the test oracle itself: what the kernel is judged by must first
 //! stand on its own.
 
-mod support;
-
 use std::collections::{HashMap, HashSet};
 
 use num_rational::BigRational;
 use num_traits::{One, Signed};
 use proptest::prelude::*;
 
-use support::bases;
-use support::compare::{assert_same, canonical_cycle, canonical_faces, same_mesh};
-use support::generate::{self, Kind, meshes, tagged_meshes};
-use support::golden;
-use support::manifold::{assert_manifold, defects};
-use support::number::{Number, Point, combine, ratio};
-use support::poly::Poly;
-use support::reference::{
+use crate::support::bases;
+use crate::support::compare::{assert_same, canonical_cycle, canonical_faces, same_mesh};
+use crate::support::generate::{self, Kind, meshes, tagged_meshes};
+use crate::support::golden;
+use crate::support::manifold::{assert_manifold, defects};
+use crate::support::number::{Number, Point, combine, ratio};
+use crate::support::poly::Poly;
+use crate::support::reference::{
     Boundary, FaceParent, Rule, Scheme, Step, VertexParent, anchored_defect, corner_weights,
     hierarchy, refine, rows, step,
 };
-use support::rng::Rng;
-use support::tensor::{assert_exactly_same, grid_mesh, random_grid};
-use support::tolerance::{FOUR_DIGITS, GOLDEN, ROUNDING};
-use support::topology::Topology;
-use support::univariate::{self, Curve};
+use crate::support::rng::Rng;
+use crate::support::tensor::{assert_exactly_same, grid_mesh, random_grid};
+use crate::support::tolerance::{FOUR_DIGITS, GOLDEN, ROUNDING};
+use crate::support::topology::Topology;
+use crate::support::univariate::{self, Curve};
 
 const MODES: [Boundary; 3] = [Boundary::None, Boundary::Edge, Boundary::EdgeCorner];
 

@@ -1,5 +1,4 @@
 //! OBJ: what is kept, what is noted, what is refused and where.
-#![cfg(feature = "io")]
 // What was written must read back as the very same numbers.
 #![allow(clippy::float_cmp)]
 
@@ -7,7 +6,7 @@ use carvel::base::NONE;
 use carvel::io::{self, Format, MeshFile, Precision, WriteOptions};
 use carvel::{Element, ErrorKind};
 
-const COW: &str = include_str!("../assets/spot/spot_control_mesh.obj");
+const COW: &str = include_str!("../../assets/spot/spot_control_mesh.obj");
 
 fn read(text: impl AsRef<[u8]>) -> MeshFile {
     io::read_from(text.as_ref(), Format::Obj, "t.obj").unwrap()

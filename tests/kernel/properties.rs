@@ -1,7 +1,5 @@
 //! Properties of refinement on random manifold meshes.
 
-mod support;
-
 use std::sync::LazyLock;
 
 use carvel::base::Scalar;
@@ -10,16 +8,16 @@ use carvel::refine::Counts;
 use carvel::{Attribute, Context, Hierarchy, Mesh, Prediction, Refined, Refiner, Task};
 use proptest::prelude::*;
 
-use support::cases::{anchoring_schemes, config, is_tame, rounding, schemes};
-use support::compare::assert_same;
-use support::generate::{self, Kind, meshes, tagged_meshes};
-use support::kernel::{self, Soup, assert_same_bytes, bits};
-use support::number::Point;
-use support::poly::Poly;
-use support::reference::{self, Boundary, Scheme};
-use support::rng::Rng;
-use support::tolerance::GOLDEN_SINGLE;
-use support::topology::Topology;
+use crate::support::cases::{anchoring_schemes, config, is_tame, rounding, schemes};
+use crate::support::compare::assert_same;
+use crate::support::generate::{self, Kind, meshes, tagged_meshes};
+use crate::support::kernel::{self, Soup, assert_same_bytes, bits};
+use crate::support::number::Point;
+use crate::support::poly::Poly;
+use crate::support::reference::{self, Boundary, Scheme};
+use crate::support::rng::Rng;
+use crate::support::tolerance::GOLDEN_SINGLE;
+use crate::support::topology::Topology;
 
 fn topology(mesh: &Poly<f64>) -> Topology {
     Topology::new(mesh.positions.len(), &mesh.faces)
@@ -70,7 +68,7 @@ proptest! {
 fn every_scheme_agrees_with_the_oracle_on_one_mesh() {
     let mut control = generate::seeded(5, Kind::Open);
     control.tags = generate::random_tags(&control, &mut Rng::new(5));
-    for scheme in support::cases::all_schemes() {
+    for scheme in crate::support::cases::all_schemes() {
         let expected = reference::refine(&control, &scheme, 2);
         let what = format!("{scheme:?}");
         assert_same(&refine(&control, &scheme, 2), &expected, rounding(&scheme), &what);

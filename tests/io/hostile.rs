@@ -1,5 +1,4 @@
 //! No bytes whatsoever make a reader panic, and what it accepts can be written.
-#![cfg(feature = "io")]
 
 use carvel::io::{self, Encoding, Format, MeshFile, WriteOptions};
 use proptest::prelude::*;

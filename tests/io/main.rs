@@ -1,0 +1,6 @@
+//! Tests of the file formats.
+
+mod files;
+mod formats;
+mod hostile;
+mod obj;

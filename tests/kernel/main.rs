@@ -1,0 +1,12 @@
+//! Tests of the kernel: `support` holds an independent reference, generators of
+//! random meshes and exact numbers; the rest hold the kernel against them.
+
+mod exact;
+mod golden;
+mod layers;
+mod limits;
+mod mesh;
+mod oracle;
+mod properties;
+mod support;
+mod topology;
