@@ -3,7 +3,7 @@
 use super::columns::{Column, Place};
 use super::predict::Prediction;
 use super::step::Step;
-use super::values::{check, check_overflow, lanes};
+use super::values::{check, check_length, check_overflow, lanes};
 use crate::base::{Context, Error, ErrorKind, Result, Scalar};
 use crate::mesh::Mesh;
 use crate::refine::adjacency::Recycled;
@@ -88,7 +88,7 @@ impl Hierarchy {
     ) -> Result<()> {
         self.check_level(level)?;
         check(context, "values", values, width, self.levels[0].vertices())?;
-        check_length(out.len(), self.mesh(level).vertices() * width)?;
+        check_length("output", out.len(), width, self.mesh(level).vertices())?;
         if level == 0 {
             out.copy_from_slice(values);
             return Ok(());
@@ -188,14 +188,4 @@ impl<W> RowSink<W> for Entries<W> {
     fn add(&mut self, vertex: u32, weight: W) {
         self.0.push((vertex, weight));
     }
-}
-
-fn check_length(len: usize, expected: usize) -> Result<()> {
-    if len == expected {
-        return Ok(());
-    }
-    Err(Error::new(
-        ErrorKind::LengthMismatch,
-        format!("the output has {len} entries, {expected} are needed"),
-    ))
 }

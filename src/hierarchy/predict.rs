@@ -5,6 +5,10 @@ use crate::mesh::Mesh;
 use crate::refine::Counts;
 use crate::scheme::Scheme;
 
+/// The largest number of levels, for meshes that do not grow out of bounds
+/// before: a lone triangle without boundary rule stays one.
+const MOST_LEVELS: u32 = 64;
+
 /// The sizes of every level of a refinement, and the memory it needs.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Prediction {
@@ -17,8 +21,15 @@ impl Prediction {
     /// at the boundary and the irregular vertices.
     ///
     /// # Errors
-    /// [`ErrorKind::TooLarge`] if a count leaves 64 bits.
+    /// [`ErrorKind::TooLarge`] if a count leaves 64 bits, or for more than 64
+    /// levels.
     pub fn new(mesh: &Mesh, scheme: &Scheme, levels: u32) -> Result<Self> {
+        if levels > MOST_LEVELS {
+            return Err(Error::new(
+                ErrorKind::TooLarge,
+                format!("{levels} levels: the limit is {MOST_LEVELS}"),
+            ));
+        }
         let mut counts = vec![Counts::of(mesh)];
         for level in 0..levels {
             let last = counts[level as usize];
@@ -64,7 +75,8 @@ impl Prediction {
     /// each of its vertices.
     pub fn output_bytes(&self, width: u64, size: u64) -> u64 {
         let last = self.last();
-        4 * (last.corners + last.faces) + last.vertices * width * size
+        let values = last.vertices.saturating_mul(width).saturating_mul(size);
+        values.saturating_add(4 * (last.corners + last.faces))
     }
 
     /// Bytes that the levels in between need while the last one is written:
@@ -74,7 +86,8 @@ impl Prediction {
         let topology: u64 = inner.iter().skip(1).map(topology_bytes).sum();
         // Edge numbers and places of vertex faces, of the levels that get a child mesh.
         let links: u64 = inner.iter().rev().skip(1).map(|c| 4 * (c.corners + c.vertices)).sum();
-        let values: u64 = inner.iter().map(|c| c.vertices * width * size).sum();
+        let values: u64 =
+            inner.iter().map(|c| c.vertices).sum::<u64>().saturating_mul(width * size);
         let stages: u64 = match self.passes {
             0 => 0,
             1 => inner.iter().map(|c| irregular_bytes(c, width, size)).max().unwrap_or(0),

@@ -7,7 +7,7 @@
 use super::columns::{Column, Place};
 use super::predict::Prediction;
 use super::step::Step;
-use super::values::{check, check_overflow, lanes};
+use super::values::{check, check_length, check_overflow, lanes};
 use crate::base::memory::{resize, zeroed};
 use crate::base::{Context, Error, ErrorKind, Result, Scalar};
 use crate::mesh::Mesh;
@@ -188,11 +188,17 @@ impl<'a, T> Task<'a, T> {
 impl<T: Scalar> Task<'_, T> {
     /// Predicts the sizes and checks them against the limits.
     fn plan(&self, context: &Context, with_output: bool) -> Result<Prediction> {
+        let vertices = self.mesh.vertices();
+        check_length("positions", self.positions.len(), 3, vertices)?;
+        for (i, a) in self.attributes.iter().enumerate() {
+            check_length(&format!("attribute {i}"), a.values.len(), a.width, vertices)?;
+        }
         let plan = Prediction::new(self.mesh, self.scheme, self.levels)?;
         for counts in plan.levels() {
             counts.check_index_type()?;
         }
-        let width = 3 + self.attributes.iter().map(|a| a.width as u64).sum::<u64>();
+        let widths = self.attributes.iter().map(|a| a.width as u64);
+        let width = widths.fold(3, u64::saturating_add);
         let output = if with_output { plan.output_bytes(width, T::BYTES) } else { 0 };
         let scratch = match self.levels {
             0 => 0,
@@ -238,11 +244,18 @@ impl<T: Scalar> Output<'_, T> {
         if let Some(sources) = &self.face_sources {
             length("face sources", sources.len(), last.faces)?;
         }
+        if self.face_sources.is_some() != task.face_sources {
+            return Err(Error::new(
+                ErrorKind::LengthMismatch,
+                "face sources must be asked for by the task and by the output alike",
+            ));
+        }
         length("face vertices", self.face_vertices.len(), last.corners)?;
         length("positions", self.positions.len(), 3 * last.vertices)?;
         length("attributes", self.attributes.len(), task.attributes.len() as u64)?;
         for (out, attribute) in self.attributes.iter().zip(task.attributes) {
-            length("attribute", out.len(), last.vertices * attribute.width as u64)?;
+            let len = last.vertices.saturating_mul(attribute.width as u64);
+            length("attribute", out.len(), len)?;
         }
         Ok(())
     }

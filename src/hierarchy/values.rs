@@ -11,12 +11,7 @@ pub(super) fn check<T: Scalar>(
     width: usize,
     vertices: usize,
 ) -> Result<f64> {
-    if width == 0 || data.len() != vertices * width {
-        return Err(Error::new(
-            ErrorKind::LengthMismatch,
-            format!("{name}: {} values of width {width} for {vertices} vertices", data.len()),
-        ));
-    }
+    check_length(name, data.len(), width, vertices)?;
     let largest = largest_magnitude(context, data)?;
     if largest.is_finite() {
         return Ok(largest);
@@ -27,6 +22,17 @@ pub(super) fn check<T: Scalar>(
         format!("{name}: value {} of vertex {} is {:?}", place % width, place / width, data[place]),
     )
     .with_elements([crate::base::Element::Vertex((place / width) as u64)]))
+}
+
+/// Checks that there is one record of `width` values per vertex.
+pub(super) fn check_length(name: &str, len: usize, width: usize, vertices: usize) -> Result<()> {
+    if width > 0 && vertices.checked_mul(width) == Some(len) {
+        return Ok(());
+    }
+    Err(Error::new(
+        ErrorKind::LengthMismatch,
+        format!("{name}: {len} values of width {width} for {vertices} vertices"),
+    ))
 }
 
 /// The largest magnitude, infinite if any value is not finite.

@@ -200,7 +200,6 @@ fn sixty_four_levels_are_too_many_at_once() {
 
 /// A mesh that does not grow: levels must have a limit of their own.
 #[test]
-#[ignore = "kernel defect: levels of a mesh that does not grow are planned one by one without end"]
 fn levels_are_limited_where_nothing_grows() {
     let lone = Soup::new(3, &[[0, 1, 2]]).mesh(false);
     let scheme = dual(&[]).with_boundary(carvel::Boundary::None);
@@ -463,7 +462,6 @@ fn inputs_must_have_the_right_lengths() {
 
 /// Sizes that only multiplied leave the range of `usize`.
 #[test]
-#[ignore = "kernel defect: width times vertices overflows, which panics where that is checked"]
 fn absurd_widths_are_refused() {
     let setup = cube(dual(&[]));
     for width in [usize::MAX, usize::MAX / 2, 1 << 61] {
