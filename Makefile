@@ -26,7 +26,11 @@ lint: tools
 # Minutes of work: more random meshes, a large mesh, fuzzing.
 deep: tools
 	PROPTEST_CASES=512 $(CARGO) test --release --locked
-	$(CARGO) test --release --locked --test large -- --ignored --nocapture
+	$(CARGO) build --release --locked
+	mkdir -p out/deep
+	target/release/carvel subdivide assets/spot/spot_control_mesh.obj \
+	    -o out/deep/large.obj --levels 7 --json
+	target/release/carvel subdivide out/deep/large.obj -o out/deep/larger.ply --levels 1 --json
 	$(MAKE) --no-print-directory fuzz
 
 # FUZZ_SECONDS on each reader and on mesh construction.
