@@ -77,7 +77,7 @@ impl Hierarchy {
     /// [`ErrorKind::LengthMismatch`] for slices of the wrong length,
     /// [`ErrorKind::ParameterOutOfRange`] for a level that was not built,
     /// [`ErrorKind::NotFinite`], [`ErrorKind::Overflow`],
-    /// [`ErrorKind::Cancelled`].
+    /// [`ErrorKind::MemoryCeiling`], [`ErrorKind::Cancelled`].
     pub fn refine<T: Scalar>(
         &self,
         context: &Context,
@@ -93,6 +93,8 @@ impl Hierarchy {
             out.copy_from_slice(values);
             return Ok(());
         }
+        let plan = Prediction::new(self.mesh(0), &self.scheme, level)?;
+        context.check_memory(plan.scratch_bytes(width as u64, T::BYTES))?;
         for (first, n) in lanes(width) {
             let place = Place { attribute: 0, width, first };
             let mut column = Column::new(n);

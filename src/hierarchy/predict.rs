@@ -66,46 +66,56 @@ impl Prediction {
         &self.levels[self.levels.len() - 1]
     }
 
-    /// Bytes of the adjacency of all levels but the first.
+    /// Bytes of the adjacency of all levels but the first; all byte counts stop at
+    /// the largest 64-bit number.
     pub fn topology_bytes(&self) -> u64 {
-        self.levels.iter().skip(1).map(topology_bytes).sum()
+        saturate(self.levels.iter().skip(1).map(topology_bytes).sum())
     }
 
     /// Bytes of the last level's faces and of `width` values of `size` bytes on
     /// each of its vertices.
     pub fn output_bytes(&self, width: u64, size: u64) -> u64 {
         let last = self.last();
-        let values = last.vertices.saturating_mul(width).saturating_mul(size);
-        values.saturating_add(4 * (last.corners + last.faces))
+        let faces = 4 * (u128::from(last.corners) + u128::from(last.faces));
+        saturate(faces.saturating_add(value_bytes(last.vertices, width, size)))
     }
 
     /// Bytes that the levels in between need while the last one is written:
-    /// topology, and values of `width` columns of `size` bytes each.
+    /// topology, and `width` values of `size` bytes on each of their vertices.
+    /// Records wider than xyz and four more may pass through a copy of the last
+    /// level, which is counted in.
     pub fn scratch_bytes(&self, width: u64, size: u64) -> u64 {
         let inner = &self.levels[..self.levels.len() - 1];
-        let topology: u64 = inner.iter().skip(1).map(topology_bytes).sum();
-        // Edge numbers and places of vertex faces, of the levels that get a child mesh.
-        let links: u64 = inner.iter().rev().skip(1).map(|c| 4 * (c.corners + c.vertices)).sum();
-        let values: u64 =
-            inner.iter().map(|c| c.vertices).sum::<u64>().saturating_mul(width * size);
-        let stages: u64 = match self.passes {
+        let topology: u128 = inner.iter().skip(1).map(topology_bytes).sum();
+        // Places of child quads, for the levels that get a child mesh.
+        let places: u128 = inner.iter().rev().skip(1).map(|c| u128::from(c.corners)).sum();
+        let values: u128 = inner.iter().map(|c| value_bytes(c.vertices, width, size)).sum();
+        let stored = inner.iter().map(|c| value_bytes(c.stored_corners(), width, size)).max();
+        let last = value_bytes(self.last().vertices, width, size);
+        let stages = match self.passes {
             0 => 0,
-            1 => inner.iter().map(|c| irregular_bytes(c, width, size)).max().unwrap_or(0),
-            _ => {
-                let irregular = inner.iter().map(|c| irregular_bytes(c, width, size)).max();
-                irregular.unwrap_or(0) + self.last().vertices * width.min(4) * size
-            }
+            1 => stored.unwrap_or(0),
+            _ => stored.unwrap_or(0).saturating_add(last),
         };
-        topology + links + values + stages
+        let copies = if width > 7 { last } else { 0 };
+        let parts = [topology, places, values, stages, copies];
+        saturate(parts.into_iter().fold(0, u128::saturating_add))
     }
 }
 
-fn topology_bytes(counts: &Counts) -> u64 {
-    // Offsets and the reverse map of irregular faces, their vertices, the rim.
-    let irregular = 8 * counts.irregular_corners + 8 * counts.irregular_faces;
-    8 * counts.corners + 4 * counts.vertices + irregular + 12 * counts.boundary_edges
+fn saturate(bytes: u128) -> u64 {
+    u64::try_from(bytes).unwrap_or(u64::MAX)
 }
 
-fn irregular_bytes(counts: &Counts, width: u64, size: u64) -> u64 {
-    counts.stored_corners() * width.min(4) * size
+fn value_bytes(records: u64, width: u64, size: u64) -> u128 {
+    u128::from(records).saturating_mul(u128::from(width)).saturating_mul(u128::from(size))
+}
+
+fn topology_bytes(counts: &Counts) -> u128 {
+    let n = |count: u64| u128::from(count);
+    // Offsets, reverse map and near bits of irregular faces; their vertices; the
+    // boundary's lists; fan starts and the set of special vertices.
+    let irregular = 9 * n(counts.irregular_corners) + 8 * n(counts.irregular_faces);
+    let vertices = 4 * n(counts.vertices) + n(counts.vertices) / 8;
+    8 * n(counts.corners) + vertices + n(counts.faces) + irregular + 12 * n(counts.boundary_edges)
 }

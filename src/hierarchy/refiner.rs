@@ -204,7 +204,10 @@ impl<T: Scalar> Task<'_, T> {
             0 => 0,
             _ => plan.scratch_bytes(width, T::BYTES),
         };
-        context.check_memory(scratch + output)?;
+        let faces = plan.levels().iter().map(|c| c.faces);
+        let sources = if self.face_sources { faces.fold(0, u64::saturating_add) } else { 0 };
+        let needed = scratch.saturating_add(output).saturating_add(sources.saturating_mul(4));
+        context.check_memory(needed)?;
         Ok(plan)
     }
 

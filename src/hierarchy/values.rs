@@ -24,9 +24,12 @@ pub(super) fn check<T: Scalar>(
     .with_elements([crate::base::Element::Vertex((place / width) as u64)]))
 }
 
+/// The largest number of values per vertex.
+const WIDEST: usize = 1 << 16;
+
 /// Checks that there is one record of `width` values per vertex.
 pub(super) fn check_length(name: &str, len: usize, width: usize, vertices: usize) -> Result<()> {
-    if width > 0 && vertices.checked_mul(width) == Some(len) {
+    if (1..=WIDEST).contains(&width) && vertices.checked_mul(width) == Some(len) {
         return Ok(());
     }
     Err(Error::new(

@@ -22,7 +22,7 @@ pub struct BuildOptions<'a> {
     /// What to do with edges and vertices that are not manifold.
     pub non_manifold: NonManifold,
     /// The mesh is the result of an earlier dual step, with the anchor row laid
-    /// along its boundary (SPEC of the dual boundaries in `docs/schemes.md`).
+    /// along its boundary (`docs/schemes.md`, "Boundaries").
     pub anchored: bool,
     /// Boundary vertices to interpolate although they have several faces.
     pub corner_tags: &'a [u32],
@@ -55,12 +55,10 @@ pub fn build(
     let offsets = check_sizes(vertices, sizes, indices)?;
     let mut defects = face_defects(context, vertices, &offsets, indices)?;
     let soup = Soup::arrange(sizes, &offsets, indices, &defects);
-    let Pairing { twin, mut bad } =
-        pair(context, vertices, &soup.vert, |c| soup.layout.next(c), |_| true)?;
+    let Pairing { twin, bad } = pair(context, vertices, &soup.vert, |c| soup.layout.next(c))?;
     let unusable = !defects.is_empty();
     let cutting = options.non_manifold == NonManifold::Cut && !unusable;
     if !cutting {
-        bad.sort_unstable_by_key(|edge| edge.edge);
         defects.extend(bad.iter().map(|edge| soup.edge_defect(edge)));
     }
     let mut mesh = soup.into_mesh(vertices, twin);

@@ -1,6 +1,7 @@
 //! Policy `cut`: every extra fan of a vertex gets its own copy of it.
 //!
-//! The fan with the smallest corner keeps the vertex; the others get new
+//! The fan with the smallest corner, in the mesh's own order of faces, keeps the
+//! vertex; the others get new
 //! numbers after the old ones, by vertex and then by smallest corner.
 
 use super::Mesh;

@@ -15,7 +15,7 @@
 //! The fan of a boundary vertex starts at the corner whose outgoing edge is the
 //! boundary edge; that of an interior vertex at its smallest corner, or, in a
 //! split mesh, at the child of the corner that the vertex comes from.
-//! [`Mesh::validate`] checks every one of these statements.
+//! [`Mesh::validate`] checks the table, and that each edge has one leader.
 
 mod anchor;
 mod build;

@@ -3,7 +3,7 @@
 //! A split gives every interior edge and every vertex a face. That face stands,
 //! in the child mesh, near one of the corners concerned: the one that *leads*
 //! the edge, the one that *starts* the fan. For a mesh from outside the smaller
-//! corner leads. In a split mesh the child of a face leads all its edges, the
+//! corner leads. In a split mesh the child of a face leads all its interior edges, the
 //! quad of an edge those to the vertex faces, and every fan of a corner's child
 //! starts in the child of the face; so whole faces are alike and their children
 //! are laid out without looking at a single corner.

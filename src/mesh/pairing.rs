@@ -35,18 +35,16 @@ struct Side {
 }
 
 /// Pairs the corners of a soup. `vert` is the face-vertex array and `next` the
-/// successor of a corner within its face; corners for which `usable` is false
-/// are left out.
+/// successor of a corner within its face.
 pub(super) fn pair(
     context: &Context,
     vertices: usize,
     vert: &[u32],
     next: impl Fn(u32) -> u32 + Sync,
-    usable: impl Fn(u32) -> bool + Sync,
 ) -> Result<Pairing> {
     let buckets = (vertices >> BUCKET_BITS) + 1;
     let dealt = context.map(context.chunks(vert.len()), |range| {
-        let sides = range.map(|c| c as u32).filter(|&c| usable(c)).map(|corner| {
+        let sides = range.map(|c| c as u32).map(|corner| {
             let (a, b) = (vert[corner as usize], vert[next(corner) as usize]);
             Side { low: a.min(b), high: a.max(b), corner }
         });

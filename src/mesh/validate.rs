@@ -51,6 +51,7 @@ impl Mesh {
     fn check_fans(&self) -> Result<()> {
         let mut reached = 0;
         for (v, &start) in self.start.iter().enumerate() {
+            ensure(start == NONE || (start as usize) < self.vert.len(), "range of start", v)?;
             let fan: Vec<u32> = self.fan(v as u32).collect();
             reached += fan.len();
             ensure(fan.iter().all(|&c| self.vert[c as usize] as usize == v), "fan", v)?;
@@ -68,9 +69,11 @@ impl Mesh {
         let set = VertexSet::new(self.start.len(), &self.special);
         self.check_near()?;
         ensure(self.special_set == set, "set of special vertices", self.special.len())?;
-        let sorted = self.corner_tags.windows(2).all(|pair| pair[0] < pair[1]);
+        let sorted = self.corner_tags.windows(2).all(|pair| pair[0] < pair[1])
+            && self.corner_tags.iter().all(|&v| (v as usize) < self.start.len());
+        ensure(sorted, "order of corner tags", self.corner_tags.len())?;
         let tagged = self.corner_tags.iter().all(|&v| self.on_rim(v));
-        ensure(sorted && tagged, "corner tags", self.corner_tags.len())
+        ensure(tagged, "corner tags", self.corner_tags.len())
     }
 }
 

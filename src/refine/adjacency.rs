@@ -4,7 +4,7 @@
 //! once, by whoever owns its place, from the parent's arrays.
 
 use super::corner_split::{Child, CornerSplit};
-use crate::base::{Context, NONE, Result};
+use crate::base::{Context, NONE, Result, memory};
 use crate::mesh::near::{LEADS, LEADS_ALL, LEADS_NONE, LEADS_OUTER, STARTS};
 use crate::mesh::{Mesh, Near, QuadWalker, VertexSet};
 
@@ -40,14 +40,10 @@ impl Recycled {
 
 /// An array of exactly `len` entries in re-used memory; entries keep whatever
 /// they held, since every one of them is about to be written.
-fn sized<T: Copy>(list: &mut Vec<T>, zero: T, len: usize) -> Vec<T> {
+fn sized<T: Copy>(list: &mut Vec<T>, zero: T, len: usize) -> Result<Vec<T>> {
     let mut list = std::mem::take(list);
-    if list.capacity() < len {
-        // Zeroed pages straight from the system, and no copy of the old entries.
-        return vec![zero; len];
-    }
-    list.resize(len, zero);
-    list
+    memory::resize(&mut list, zero, len)?;
+    Ok(list)
 }
 
 impl CornerSplit<'_> {
@@ -56,25 +52,25 @@ impl CornerSplit<'_> {
         &self,
         context: &Context,
         anchored: bool,
-        memory: &mut Recycled,
+        recycled: &mut Recycled,
     ) -> Result<Mesh> {
         let corners = self.counts.corners as usize;
         let quads = (self.counts.faces - self.counts.irregular_faces) as usize;
-        let mut vert = sized(&mut memory.vert, 0, corners);
+        let mut vert = sized(&mut recycled.vert, 0, corners)?;
         self.write_faces(context, &mut vert)?;
         let places = self.near.irregular.len() + self.near.quads.len();
-        let links = Links::new(self, context, sized(&mut memory.place, 0, places))?;
+        let links = Links::new(self, context, sized(&mut recycled.place, 0, places)?)?;
         let mut child = Mesh {
             layout: self.child_layout(),
             vert,
-            twin: sized(&mut memory.twin, 0, corners),
-            start: sized(&mut memory.start, 0, self.counts.vertices as usize),
+            twin: sized(&mut recycled.twin, 0, corners)?,
+            start: sized(&mut recycled.start, 0, self.counts.vertices as usize)?,
             rim: Vec::new(),
             special: self.special(),
             special_set: VertexSet::default(),
             near: Near {
                 irregular: vec![0; self.quads as usize],
-                quads: sized(&mut memory.near, 0, quads),
+                quads: sized(&mut recycled.near, 0, quads)?,
             },
             corner_tags: Vec::new(),
             anchored,
@@ -83,7 +79,7 @@ impl CornerSplit<'_> {
         child.special_set = VertexSet::new(child.start.len(), &child.special);
         links.write(context, &mut child)?;
         child.rim = links.rim();
-        memory.place = links.place;
+        recycled.place = links.place;
         Ok(child)
     }
 

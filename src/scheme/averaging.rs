@@ -127,7 +127,9 @@ impl Scheme {
     /// C_t on a mirrored face are at most 9 times those of C_t itself.
     pub(crate) fn growth(&self) -> f64 {
         const MIRROR: f64 = 9.0;
-        let norm = |t: f64| t * t + (1.0 - t * t).abs() + 2.0 * (t * (1.0 - t)).abs();
+        let cosine = |t: f64| t * t + (1.0 - t * t).abs() + 2.0 * (t * (1.0 - t)).abs();
+        let average = |t: f64| (t.abs() + (1.0 - t).abs()).powi(2);
+        let norm = |t: f64| cosine(t).max(average(t));
         let passes = self.passes.iter().map(|t| MIRROR * norm(t.to_f64()));
         MIRROR * norm(0.5) * passes.product::<f64>()
     }

@@ -5,6 +5,7 @@
 //! | `args` | what can be asked for |
 //! | `exit` | exit codes, and which mistake has which |
 //! | `session` | what all commands share: threads, limits, interruption |
+//! | `interrupt`, `memory`, `atomic` | signals, what the system has, files replaced whole |
 //! | `console` | every line and the progress bar on the standard error stream |
 //! | `input`, `places` | what is read, and where results go |
 //! | `faults` | mistakes in a mesh, as lines of its file |
@@ -12,6 +13,8 @@
 //! | `refine`, `precise`, `carry`, `seams` | one refinement with all its data |
 //! | `report`, `text` | JSON, numbers and names for people |
 //! | `preview` | the renderer |
+
+#![forbid(unsafe_code)]
 
 mod args;
 mod atomic;
