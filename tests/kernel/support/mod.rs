@@ -24,8 +24,6 @@
 //! | [`exact`] | the kernel's weights in exact arithmetic |
 //! | [`allocation`] | the most memory that a thread holds |
 
-// Each test binary compiles this tree for itself and uses a part of it.
-#![allow(dead_code)]
 // Small integer weights and indices before the start of a curve are signed; no
 // mesh of a test comes near the range of either type.
 #![allow(clippy::cast_possible_wrap, clippy::cast_sign_loss)]

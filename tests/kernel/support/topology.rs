@@ -200,10 +200,4 @@ impl Topology {
         let used = self.fans.len() - self.isolated().len();
         (used + self.face_count()) as i64 - self.edge_count() as i64
     }
-
-    /// Number of edges at each vertex.
-    pub fn valences(&self) -> Vec<usize> {
-        let edges = |v: usize| self.fans[v].len() + usize::from(self.is_boundary(v));
-        (0..self.fans.len()).map(edges).collect()
-    }
 }
