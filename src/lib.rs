@@ -1,7 +1,9 @@
 #![doc = include_str!("../README.md")]
-#![forbid(unsafe_code)]
+#![deny(unsafe_code)]
 
 pub mod base;
+#[cfg(feature = "capi")]
+pub mod capi;
 pub mod hierarchy;
 #[cfg(feature = "io")]
 pub mod io;
