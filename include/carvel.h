@@ -1,14 +1,1029 @@
-/* carvel.h - skeleton */
+/*
+ * carvel.h - the C interface of carvel, a subdivision-surface kernel.
+ *
+ * A control mesh of any topology goes in, a smooth surface comes out. This file
+ * is the manual: an overview with a complete example, then one section for each
+ * object.
+ *
+ *
+ * An example
+ * ==========
+ * Refines a pyramid twice with the three-point scheme.
+ *
+ *   #include <carvel.h>
+ *   #include <stdio.h>
+ *   #include <stdlib.h>
+ *
+ *   int main(void)
+ *   {
+ *       static const double points[15] = {
+ *           0, 0, 0,  2, 0, 0,  2, 2, 0,  0, 2, 0,  1, 1, 2 };
+ *       static const uint32_t sizes[5] = { 4, 3, 3, 3, 3 };
+ *       static const uint32_t corners[16] = {
+ *           3, 2, 1, 0,  0, 1, 4,  1, 2, 4,  2, 3, 4,  3, 0, 4 };
+ *       carvel_error *error = NULL;
+ *       carvel_mesh *mesh = NULL;
+ *       carvel_scheme *scheme = NULL;
+ *       carvel_refiner *refiner = NULL;
+ *       carvel_mesh_desc mesh_desc;
+ *       carvel_scheme_desc scheme_desc;
+ *       carvel_counts counts;
+ *       carvel_refine_input_f64 input;
+ *       carvel_refine_output_f64 output;
+ *       carvel_status status;
+ *
+ *       carvel_mesh_desc_init(&mesh_desc, sizeof mesh_desc);
+ *       carvel_scheme_desc_init(&scheme_desc, sizeof scheme_desc);
+ *       carvel_counts_init(&counts, sizeof counts);
+ *       carvel_refine_input_f64_init(&input, sizeof input);
+ *       carvel_refine_output_f64_init(&output, sizeof output);
+ *       status = carvel_error_create(&error);
+ *
+ *       mesh_desc.vertex_count = 5;
+ *       mesh_desc.face_count = 5;
+ *       mesh_desc.face_sizes = sizes;
+ *       mesh_desc.face_vertices = corners;
+ *       mesh_desc.face_vertex_count = 16;
+ *       if (status == CARVEL_STATUS_OK)
+ *           status = carvel_mesh_create(NULL, &mesh_desc, &mesh, error);
+ *       scheme_desc.family = CARVEL_SCHEME_THREE_POINT;
+ *       if (status == CARVEL_STATUS_OK)
+ *           status = carvel_scheme_create(&scheme_desc, &scheme, error);
+ *       if (status == CARVEL_STATUS_OK)
+ *           status = carvel_refiner_create(&refiner, error);
+ *       if (status == CARVEL_STATUS_OK)
+ *           status = carvel_predict_counts(mesh, scheme, 2, &counts, error);
+ *       if (status == CARVEL_STATUS_OK) {
+ *           input.levels = 2;
+ *           input.mesh = mesh;
+ *           input.scheme = scheme;
+ *           input.positions.data = points;
+ *           input.positions.count = 5;
+ *           input.positions.width = 3;
+ *           output.face_sizes.count = counts.faces;
+ *           output.face_sizes.data = malloc(counts.faces * sizeof(uint32_t));
+ *           output.face_vertices.count = counts.corners;
+ *           output.face_vertices.data = malloc(counts.corners * sizeof(uint32_t));
+ *           output.positions.count = counts.vertices;
+ *           output.positions.width = 3;
+ *           output.positions.data = malloc(counts.vertices * 3 * sizeof(double));
+ *           status = carvel_refiner_refine_f64(refiner, NULL, &input, &output, error);
+ *       }
+ *       if (status == CARVEL_STATUS_OK)
+ *           printf("%lu faces, the first vertex is at %g %g %g\n",
+ *                  (unsigned long)counts.faces, output.positions.data[0],
+ *                  output.positions.data[1], output.positions.data[2]);
+ *       else
+ *           fprintf(stderr, "%s: %s\n", carvel_status_string(status),
+ *                   carvel_error_message(error));
+ *       free(output.face_sizes.data);
+ *       free(output.face_vertices.data);
+ *       free(output.positions.data);
+ *       carvel_refiner_destroy(refiner);
+ *       carvel_scheme_destroy(scheme);
+ *       carvel_mesh_destroy(mesh);
+ *       carvel_error_destroy(error);
+ *       return status == CARVEL_STATUS_OK ? 0 : 1;
+ *   }
+ *
+ *   cc pyramid.c $(pkg-config --cflags --libs carvel) -o pyramid
+ *
+ *
+ * The objects
+ * ===========
+ *   carvel_error      why a call failed: a message, the elements, every defect
+ *   carvel_context    threads, memory ceiling, progress, cancellation
+ *   carvel_scheme     a subdivision scheme with its parameters
+ *   carvel_mesh       the topology of a mesh, checked
+ *   (predict)         what a level will cost, before anything is built
+ *   carvel_refiner    one-shot: faces and values of level n
+ *   carvel_hierarchy  all levels, kept: values again and again, lineage
+ *
+ * Each is made by a _create function, which hands it over to the caller, and
+ * given back by its _destroy function; NULL may be destroyed. An object may be
+ * destroyed as soon as no call that was given it is running: none keeps a
+ * pointer to another one that you have to keep alive, nor to any memory of
+ * yours.
+ *
+ *
+ * What holds for every function
+ * =============================
+ * Status.    A function that can fail returns a carvel_status, 0 for success.
+ *            Results go through pointers. On failure an object pointer is set
+ *            to NULL; other outputs are untouched unless the function says
+ *            otherwise. Nothing is ever printed, no call aborts on bad input.
+ *
+ * Errors     The last argument, `error`, may be NULL. Otherwise it is filled
+ *            with what went wrong, and emptied by a call that succeeds.
+ *
+ * Pointers   are checked for NULL and for alignment, sizes for what memory and
+ *            indices can hold, before anything is read or written. Where a
+ *            count is 0 its pointer is not looked at. Whether memory is really
+ *            there cannot be checked; a pointer to freed memory or to another
+ *            kind of object is undefined behaviour, as everywhere in C.
+ *
+ * Counts     are uint64_t and count elements, never bytes. Strides count bytes.
+ *            Vertex, corner and face indices are uint32_t, counted from 0. A
+ *            host with int32_t indices passes them cast: a negative one is out
+ *            of range and answered as such.
+ *
+ * Buffers    An output buffer is the caller's and comes with its capacity. One
+ *            that is too small is refused before work starts; one that is
+ *            larger is used from its start and the rest stays untouched. A
+ *            counts query (carvel_mesh_counts, carvel_hierarchy_counts,
+ *            carvel_predict_counts) tells the size. Outputs must not overlap
+ *            inputs or each other; interleaved records of equal stride may lie
+ *            between each other.
+ *
+ * Structs    that may grow start with `struct_size`, the size that the caller
+ *            was compiled with, and have an _init function that takes it and
+ *            sets defaults. In descriptions zero is the default of every field,
+ *            so that a zeroed struct with `struct_size` set is the same. A
+ *            smaller size that ends between two fields is read as an older
+ *            version: the rest takes its default. A larger one is refused with
+ *            CARVEL_STATUS_STRUCT_SIZE: the library is older than the caller.
+ *
+ * Threads    A mesh, scheme, hierarchy or context may be used by any number of
+ *            threads at once. A refiner serves one call at a time and answers
+ *            CARVEL_STATUS_BUSY to another. An error belongs to one thread at
+ *            a time. There is no global state that a caller could see, no
+ *            hidden thread pool.
+ *
+ * Results    are the same bytes on every number of threads, on every processor
+ *            and in every call.
+ *
+ * Defects    of the library itself are caught at this border: the call returns
+ *            CARVEL_STATUS_PANIC and every object that it was given answers
+ *            CARVEL_STATUS_POISONED from then on. Destroy them and go on; and
+ *            please report it.
+ *
+ * Memory     Arrays that grow with the mesh are had from the system in a way
+ *            that can fail: CARVEL_STATUS_OUT_OF_RESOURCES. Objects of a few
+ *            hundred bytes are not, and a process that cannot have those ends.
+ *
+ * docs/abi.md says what may change from version to version.
+ */
 #ifndef CARVEL_H
 #define CARVEL_H
+
+#include <stdint.h>
+
 #define CARVEL_VERSION_MAJOR 0
 #define CARVEL_VERSION_MINOR 1
 #define CARVEL_VERSION_PATCH 0
+#define CARVEL_VERSION_STRING "0.1.0"
+
+/* CARVEL_API marks what is stable; CARVEL_EXPERIMENTAL what may still change in
+ * any version (docs/abi.md). Define CARVEL_STATIC before including this file to
+ * link the static library on Windows. */
+#if defined(_WIN32) && !defined(CARVEL_STATIC)
+#define CARVEL_API __declspec(dllimport)
+#else
+#define CARVEL_API
+#endif
+#define CARVEL_EXPERIMENTAL CARVEL_API
+
 #ifdef __cplusplus
 extern "C" {
 #endif
-const char *carvel_version(void);
+
+/* ==========================================================================
+ * Version and status
+ * ========================================================================== */
+
+/* The version of the library that is running, such as "0.1.0". The string is
+ * static. Compare with CARVEL_VERSION_STRING, which was compiled in. */
+CARVEL_API const char *carvel_version(void);
+
+/* What a call came to: one of enum carvel_status_code. The numbers are never
+ * changed or used again; later versions add to them. */
+typedef int32_t carvel_status;
+
+enum carvel_status_code {
+    CARVEL_STATUS_OK = 0,
+
+    /* Meshes. */
+    /* A face names a vertex that does not exist. */
+    CARVEL_STATUS_INDEX_OUT_OF_RANGE = 1,
+    /* A face has fewer than three vertices. */
+    CARVEL_STATUS_FACE_TOO_SMALL = 2,
+    /* A vertex occurs twice in one face. */
+    CARVEL_STATUS_REPEATED_VERTEX = 3,
+    /* Two faces run through an edge in the same direction. */
+    CARVEL_STATUS_INCONSISTENT_ORIENTATION = 4,
+    /* More than two faces share an edge. */
+    CARVEL_STATUS_NON_MANIFOLD_EDGE = 5,
+    /* The faces around a vertex form more than one fan. */
+    CARVEL_STATUS_NON_MANIFOLD_VERTEX = 6,
+    /* A size does not fit the index type. */
+    CARVEL_STATUS_TOO_LARGE = 7,
+    /* A mesh marked anchored does not have the shape that a dual step leaves. */
+    CARVEL_STATUS_NOT_ANCHORED = 8,
+    /* A tag names an element that cannot carry it. */
+    CARVEL_STATUS_INVALID_TAG = 9,
+
+    /* Data and parameters. */
+    /* An array has another length than the mesh asks for. */
+    CARVEL_STATUS_LENGTH_MISMATCH = 10,
+    /* A coordinate is NaN or infinite. */
+    CARVEL_STATUS_NOT_FINITE = 11,
+    /* A finite coordinate left the range of the number type on the way. */
+    CARVEL_STATUS_OVERFLOW = 12,
+    /* A parameter lies outside its documented range. */
+    CARVEL_STATUS_PARAMETER_OUT_OF_RANGE = 13,
+    /* A fraction has the denominator 0, or a term that cannot be negated. */
+    CARVEL_STATUS_INVALID_TEXT = 14,
+
+    /* Resources. */
+    /* The work would need more memory than the context's ceiling allows. */
+    CARVEL_STATUS_MEMORY_CEILING = 15,
+    /* The system refused memory or threads. */
+    CARVEL_STATUS_OUT_OF_RESOURCES = 16,
+    /* The progress callback or carvel_context_cancel asked to stop. */
+    CARVEL_STATUS_CANCELLED = 17,
+
+    /* Files; no function of this version returns these. */
+    CARVEL_STATUS_IO = 18,
+    CARVEL_STATUS_SYNTAX = 19,
+    CARVEL_STATUS_UNSUPPORTED = 20,
+
+    /* A stored invariant does not hold: a defect of the library. */
+    CARVEL_STATUS_BROKEN_INVARIANT = 21,
+
+    /* Calls. */
+    /* A pointer that is needed is NULL. */
+    CARVEL_STATUS_NULL_POINTER = 101,
+    /* A pointer or a stride is not a multiple of its type's alignment. */
+    CARVEL_STATUS_MISALIGNED = 102,
+    /* An output overlaps an input or another output. */
+    CARVEL_STATUS_OVERLAP = 103,
+    /* A struct_size is one that this version of the library does not know. */
+    CARVEL_STATUS_STRUCT_SIZE = 104,
+    /* An output buffer holds fewer elements than are to be written. */
+    CARVEL_STATUS_BUFFER_TOO_SMALL = 105,
+    /* A stride is smaller than the record that it steps over. */
+    CARVEL_STATUS_INVALID_STRIDE = 106,
+    /* The refiner is at work for another thread. */
+    CARVEL_STATUS_BUSY = 107,
+    /* A defect of the library was caught in this call. */
+    CARVEL_STATUS_PANIC = 108,
+    /* A defect was caught in an earlier call with this object. */
+    CARVEL_STATUS_POISONED = 109
+};
+
+/* A status in a few English words, a static string; "unknown status" for
+ * numbers that this version does not have. Any thread, no cost. */
+CARVEL_API const char *carvel_status_string(carvel_status status);
+
+/* ==========================================================================
+ * carvel_error: why a call failed
+ *
+ * Made once, passed to any number of calls, one thread at a time. It holds a
+ * status, a message of one line, and a list of entries: every defect of a mesh
+ * that was refused, otherwise the failure itself. Entries name elements.
+ * Strings from an error are valid until the next call that is given it.
+ * Where `error` may be NULL the functions answer as for an empty error.
+ * ========================================================================== */
+
+typedef struct carvel_error carvel_error;
+
+enum carvel_element_kind {
+    /* A vertex: `index`. */
+    CARVEL_ELEMENT_VERTEX = 1,
+    /* A face, in the order of the call's own arrays: `index`. */
+    CARVEL_ELEMENT_FACE = 2,
+    /* An edge: its vertices `index` and `second`. */
+    CARVEL_ELEMENT_EDGE = 3,
+    /* A line of a file, counted from 1: `index`. */
+    CARVEL_ELEMENT_LINE = 4,
+    /* A byte of a file: `index`. */
+    CARVEL_ELEMENT_BYTE = 5
+};
+
+/* An element that an error speaks of. The layout is final. */
+typedef struct carvel_element {
+    /* One of enum carvel_element_kind; 0 if there is no such element. */
+    uint64_t kind;
+    uint64_t index;
+    uint64_t second;
+} carvel_element;
+
+/* Makes an empty error.
+ * out: receives the error; must not be NULL.
+ * Errors: NULL_POINTER, MISALIGNED. */
+CARVEL_API carvel_status carvel_error_create(carvel_error **out);
+
+/* Destroys an error and the strings had from it; NULL is allowed. */
+CARVEL_API void carvel_error_destroy(carvel_error *error);
+
+/* The status of the last call that was given this error; OK for NULL. */
+CARVEL_API carvel_status carvel_error_status(const carvel_error *error);
+
+/* One line for people, UTF-8, naming elements; "" after success and for NULL. */
+CARVEL_API const char *carvel_error_message(const carvel_error *error);
+
+/* The number of entries: 0 after success, otherwise at least 1. */
+CARVEL_API uint64_t carvel_error_entry_count(const carvel_error *error);
+
+/* The status of an entry; OK if there is no such entry. */
+CARVEL_API carvel_status carvel_error_entry_status(const carvel_error *error, uint64_t entry);
+
+/* The message of an entry, made when asked for: valid until the next call with
+ * this error, this function included. "" if there is no such entry. */
+CARVEL_API const char *carvel_error_entry_message(carvel_error *error, uint64_t entry);
+
+/* The number of elements that an entry names: the vertex or the edge first,
+ * then the faces. 0 if there is no such entry. */
+CARVEL_API uint64_t carvel_error_element_count(const carvel_error *error, uint64_t entry);
+
+/* An element of an entry; kind 0 if there is no such element. */
+CARVEL_API carvel_element carvel_error_element(const carvel_error *error, uint64_t entry,
+                                               uint64_t element);
+
+/* ==========================================================================
+ * carvel_context: threads, memory ceiling, progress, cancellation
+ *
+ * A context owns its threads and is worth keeping: starting threads costs more
+ * than a small job. Wherever a context is asked for, NULL means the calling
+ * thread alone, no ceiling, no callback.
+ * ========================================================================== */
+
+typedef struct carvel_context carvel_context;
+
+/* Told how much of a call is done, from 0 to 1, on the thread that made the
+ * call; a non-zero answer cancels it. Two calls at once on one context call it
+ * at once. It must return: throwing a C++ exception or longjmp out of it is
+ * undefined behaviour. It must not call functions with the objects that the
+ * running call writes to, nor destroy any that it was given. */
+typedef int32_t (*carvel_progress)(double done, void *user_data);
+
+typedef struct carvel_context_desc {
+    /* sizeof(carvel_context_desc). */
+    uint32_t struct_size;
+    /* Threads to use, at most 1024: 0 for all cores, 1 for the calling thread
+     * alone. */
+    uint32_t thread_count;
+    /* Bytes that one call may need in all, as predicted before it allocates;
+     * 0 for no ceiling. */
+    uint64_t memory_ceiling;
+    /* May be NULL. */
+    carvel_progress progress;
+    /* Handed to `progress`; never looked at. */
+    void *user_data;
+} carvel_context_desc;
+
+/* Sets defaults: all cores, no ceiling, no callback.
+ * desc: not NULL. struct_size: sizeof *desc.
+ * Errors: NULL_POINTER, MISALIGNED, STRUCT_SIZE. */
+CARVEL_API carvel_status carvel_context_desc_init(carvel_context_desc *desc,
+                                                  uint32_t struct_size);
+
+/* Makes a context and starts its threads.
+ * Errors: NULL_POINTER, MISALIGNED, STRUCT_SIZE; OUT_OF_RESOURCES if the system
+ * refuses threads or more than 1024 are asked for. */
+CARVEL_API carvel_status carvel_context_create(const carvel_context_desc *desc,
+                                               carvel_context **out, carvel_error *error);
+
+/* Ends the threads and destroys the context; NULL is allowed. No call may be
+ * running with it. */
+CARVEL_API void carvel_context_destroy(carvel_context *context);
+
+/* The number of threads that work is spread over; 1 for NULL. */
+CARVEL_API uint32_t carvel_context_thread_count(const carvel_context *context);
+
+/* Asks the calls running with this context to stop. They return CANCELLED soon,
+ * and so does every later call, until carvel_context_reset. Any thread may ask,
+ * at any time; so may a signal handler. NULL is ignored. */
+CARVEL_API void carvel_context_cancel(carvel_context *context);
+
+/* Takes the request back. Any thread. NULL is ignored. */
+CARVEL_API void carvel_context_reset(carvel_context *context);
+
+/* 1 once a stop was asked for, otherwise 0. Any thread. */
+CARVEL_API int32_t carvel_context_is_cancelled(const carvel_context *context);
+
+/* ==========================================================================
+ * carvel_scheme: a subdivision scheme with its parameters
+ * ========================================================================== */
+
+typedef struct carvel_scheme carvel_scheme;
+
+/* An exact number. Denominators are not 0, and no term is INT64_MIN. The layout
+ * is final. */
+typedef struct carvel_fraction {
+    int64_t numerator;
+    int64_t denominator;
+} carvel_fraction;
+
+enum carvel_scheme_family {
+    /* Doo and Sabin 1978: biquadratic B-splines, C1. */
+    CARVEL_SCHEME_DOO_SABIN = 0,
+    /* The three-point family, univariate mask [w, 1/4+w, 3/4-2w, ...]; C2 for
+     * w = 1/32. */
+    CARVEL_SCHEME_THREE_POINT = 1,
+    /* Tensor-product quartic B-splines, C3. */
+    CARVEL_SCHEME_QUARTIC = 2,
+    /* Tensor-product B-splines of an even degree. */
+    CARVEL_SCHEME_B_SPLINE = 3,
+    /* The dual split followed by any list of smoothing passes M_t. */
+    CARVEL_SCHEME_AVERAGING = 4
+};
+
+/* Which corner operator is used on n-gons that are no quads. */
+enum carvel_corner_rule {
+    /* Doo and Sabin's cosine weights. */
+    CARVEL_CORNER_RULE_COSINE = 0,
+    /* Mean of vertex, edge midpoints and centroid (Catmull and Clark 1978). */
+    CARVEL_CORNER_RULE_AVERAGE = 1
+};
+
+/* What happens along a boundary, in OpenSubdiv's vocabulary. */
+enum carvel_boundary {
+    /* The boundary curve is the univariate curve of the boundary polygon;
+     * tagged corners and vertices with a single face are interpolated. */
+    CARVEL_BOUNDARY_EDGE_AND_CORNER = 0,
+    /* The same, but only tagged corners are interpolated. */
+    CARVEL_BOUNDARY_EDGE = 1,
+    /* No added points: the surface ends half a cell inside. */
+    CARVEL_BOUNDARY_NONE = 2
+};
+
+typedef struct carvel_scheme_desc {
+    /* sizeof(carvel_scheme_desc). */
+    uint32_t struct_size;
+    /* One of enum carvel_scheme_family. */
+    int32_t family;
+    /* One of enum carvel_corner_rule. */
+    int32_t corner_rule;
+    /* One of enum carvel_boundary. */
+    int32_t boundary;
+    /* THREE_POINT only: the parameter, 0 <= w <= 1/16; 0/0 for 1/32. */
+    carvel_fraction w;
+    /* B_SPLINE only: the degree, even, 2 to 64. */
+    uint64_t degree;
+    /* AVERAGING only: the passes, in order, |t| <= 1000, at most 64. */
+    const carvel_fraction *passes;
+    uint64_t pass_count;
+} carvel_scheme_desc;
+
+/* Sets defaults: Doo-Sabin, cosine, edge and corner.
+ * Errors: NULL_POINTER, MISALIGNED, STRUCT_SIZE. */
+CARVEL_API carvel_status carvel_scheme_desc_init(carvel_scheme_desc *desc,
+                                                 uint32_t struct_size);
+
+/* Makes a scheme. A field that belongs to another family must have its default.
+ * Errors: NULL_POINTER, MISALIGNED, STRUCT_SIZE, PARAMETER_OUT_OF_RANGE,
+ * INVALID_TEXT for a fraction. No cost to speak of. */
+CARVEL_API carvel_status carvel_scheme_create(const carvel_scheme_desc *desc,
+                                              carvel_scheme **out, carvel_error *error);
+
+/* Destroys a scheme; NULL is allowed. */
+CARVEL_API void carvel_scheme_destroy(carvel_scheme *scheme);
+
+/* The smoothing passes that the scheme comes down to, in lowest terms.
+ * out: `capacity` fractions; may be NULL if capacity is 0.
+ * count: receives the number of passes, at most 64, also if the buffer is too
+ * small: a first call with capacity 0 asks. May be NULL.
+ * Errors: NULL_POINTER, MISALIGNED, BUFFER_TOO_SMALL (not for capacity 0). */
+CARVEL_API carvel_status carvel_scheme_passes(const carvel_scheme *scheme, carvel_fraction *out,
+                                              uint64_t capacity, uint64_t *count,
+                                              carvel_error *error);
+
+/* ==========================================================================
+ * carvel_mesh: the topology of a mesh, checked
+ *
+ * An orientable 2-manifold of polygons, closed or with boundary, of any number
+ * of components; no positions. Corners are the places of the concatenated
+ * face-vertex array. Faces that are no quads come first (no triangles, in a mesh
+ * of triangles alone) and keep the caller's order within that rule, unless a
+ * large mesh comes in no order at all and is put in one; carvel_mesh_face_sources
+ * leads back. Vertices keep their numbers.
+ * ========================================================================== */
+
+typedef struct carvel_mesh carvel_mesh;
+
+/* What to do with edges of more than two faces or of faces that run through
+ * them in the same direction, and vertices of more than one fan. */
+enum carvel_non_manifold {
+    /* Refuse the mesh. */
+    CARVEL_NON_MANIFOLD_ERROR = 0,
+    /* Make every face side at such an edge a boundary edge, and give every extra
+     * fan of a vertex its own copy of it; carvel_mesh_vertex_sources tells. */
+    CARVEL_NON_MANIFOLD_CUT = 1
+};
+
+/* Faces as the caller has them, in one of three layouts:
+ *   face_sizes    the size of every face (USD, OpenSubdiv);
+ *   face_offsets  the first corner of every face, and the number of corners as
+ *                 the last entry, face_count + 1 in all (VTK, Blender);
+ *   face_size     one size for all faces, and no array.
+ * Exactly one is given. The arrays are read where they are; face_sizes costs no
+ * copy, the other two one of 4 bytes for each face while the mesh is built. */
+typedef struct carvel_mesh_desc {
+    /* sizeof(carvel_mesh_desc). */
+    uint32_t struct_size;
+    /* Vertices of every face, or 0. */
+    uint32_t face_size;
+    uint64_t vertex_count;
+    uint64_t face_count;
+    /* face_count entries, or NULL. */
+    const uint32_t *face_sizes;
+    /* face_count + 1 entries from 0 on, never falling, or NULL. */
+    const uint32_t *face_offsets;
+    /* The vertices of all faces, counter-clockwise seen from outside. */
+    const uint32_t *face_vertices;
+    /* Their number: the sum of the sizes, below 2^32 - 1. */
+    uint64_t face_vertex_count;
+    /* One of enum carvel_non_manifold. */
+    int32_t non_manifold;
+    /* 1 if the mesh is the result of a dual step with a boundary rule other
+     * than NONE (a further step must not round its boundary off again),
+     * otherwise 0. */
+    int32_t anchored;
+    /* Boundary vertices to interpolate although they have several faces. */
+    const uint32_t *corner_tags;
+    uint64_t corner_tag_count;
+} carvel_mesh_desc;
+
+/* Sets defaults: no faces, refuse what is not manifold, not anchored, no tags.
+ * Errors: NULL_POINTER, MISALIGNED, STRUCT_SIZE. */
+CARVEL_API carvel_status carvel_mesh_desc_init(carvel_mesh_desc *desc, uint32_t struct_size);
+
+/* Builds a mesh; O(corners). A mesh without faces or vertices is allowed.
+ * Errors: NULL_POINTER, MISALIGNED, STRUCT_SIZE; PARAMETER_OUT_OF_RANGE for an
+ * unknown policy, for no layout or for several, and for falling offsets;
+ * LENGTH_MISMATCH, TOO_LARGE; INDEX_OUT_OF_RANGE to NON_MANIFOLD_VERTEX for the
+ * first defect, with all of them as entries of the error; NOT_ANCHORED,
+ * INVALID_TAG, MEMORY_CEILING, OUT_OF_RESOURCES, CANCELLED. */
+CARVEL_API carvel_status carvel_mesh_create(const carvel_context *context,
+                                            const carvel_mesh_desc *desc, carvel_mesh **out,
+                                            carvel_error *error);
+
+/* Destroys a mesh; NULL is allowed. */
+CARVEL_API void carvel_mesh_destroy(carvel_mesh *mesh);
+
+/* Sizes of a mesh or of a level. */
+typedef struct carvel_counts {
+    /* sizeof(carvel_counts). */
+    uint32_t struct_size;
+    /* The level that the counts belong to; 0 for a mesh. */
+    uint32_t level;
+    /* Vertices, isolated ones included. */
+    uint64_t vertices;
+    uint64_t faces;
+    /* The sum of the face sizes. */
+    uint64_t corners;
+    uint64_t edges;
+    /* Edges with a face on one side only. */
+    uint64_t boundary_edges;
+    /* Faces at the front that are no quads (no triangles, in a mesh of triangles
+     * alone). */
+    uint64_t irregular_faces;
+} carvel_counts;
+
+/* Prepares the struct for a counts query.
+ * Errors: NULL_POINTER, MISALIGNED, STRUCT_SIZE. */
+CARVEL_API carvel_status carvel_counts_init(carvel_counts *counts, uint32_t struct_size);
+
+/* The sizes of a mesh; counts->struct_size must be set. No cost.
+ * Errors: NULL_POINTER, MISALIGNED, STRUCT_SIZE. */
+CARVEL_API carvel_status carvel_mesh_counts(const carvel_mesh *mesh, carvel_counts *counts,
+                                            carvel_error *error);
+
+/* What a mesh is like. */
+typedef struct carvel_survey {
+    /* sizeof(carvel_survey). */
+    uint32_t struct_size;
+    /* 1 if a dual scheme's anchor row lies along the boundary already. */
+    int32_t anchored;
+    /* Connected components, isolated vertices not counted. */
+    uint64_t components;
+    uint64_t boundary_loops;
+    /* Vertices without a face. */
+    uint64_t isolated_vertices;
+    /* V - E + F, isolated vertices not counted. */
+    int64_t euler_characteristic;
+    /* Tagged corners, those of copies included. */
+    uint64_t corner_tags;
+    /* Bytes held by the topology. */
+    uint64_t bytes;
+} carvel_survey;
+
+/* Prepares the struct for a survey.
+ * Errors: NULL_POINTER, MISALIGNED, STRUCT_SIZE. */
+CARVEL_API carvel_status carvel_survey_init(carvel_survey *survey, uint32_t struct_size);
+
+/* Looks at the whole mesh once, O(corners); survey->struct_size must be set.
+ * Errors: NULL_POINTER, MISALIGNED, STRUCT_SIZE. */
+CARVEL_API carvel_status carvel_mesh_survey(const carvel_mesh *mesh, carvel_survey *survey,
+                                            carvel_error *error);
+
+/* What a histogram counts. */
+enum carvel_histogram {
+    /* Faces by size. */
+    CARVEL_HISTOGRAM_FACE_SIZES = 1,
+    /* Interior vertices by number of faces. */
+    CARVEL_HISTOGRAM_INTERIOR_VALENCES = 2,
+    /* Boundary vertices by number of faces. */
+    CARVEL_HISTOGRAM_BOUNDARY_VALENCES = 3
+};
+
+/* A histogram: `count` elements have `value`. The layout is final. */
+typedef struct carvel_histogram_entry {
+    uint64_t value;
+    uint64_t count;
+} carvel_histogram_entry;
+
+/* A histogram by ascending value, without empty entries; O(corners).
+ * which: one of enum carvel_histogram.
+ * out: `capacity` entries; may be NULL if capacity is 0.
+ * count: receives the number of entries, also if the buffer is too small: a
+ * first call with capacity 0 asks. May be NULL.
+ * Errors: NULL_POINTER, MISALIGNED, PARAMETER_OUT_OF_RANGE, BUFFER_TOO_SMALL
+ * (not for capacity 0). */
+CARVEL_API carvel_status carvel_mesh_histogram(const carvel_mesh *mesh, int32_t which,
+                                               carvel_histogram_entry *out, uint64_t capacity,
+                                               uint64_t *count, carvel_error *error);
+
+/* The arrays of a mesh. Each function fills a caller's buffer of `capacity`
+ * entries; the number written is given below in terms of carvel_counts.
+ * Errors: NULL_POINTER, MISALIGNED, BUFFER_TOO_SMALL. Linear cost. */
+
+/* The size of every face: `faces` entries. */
+CARVEL_API carvel_status carvel_mesh_face_sizes(const carvel_mesh *mesh, uint32_t *out,
+                                                uint64_t capacity, carvel_error *error);
+
+/* The first corner of every face, and the number of corners: `faces` + 1. */
+CARVEL_API carvel_status carvel_mesh_face_offsets(const carvel_mesh *mesh, uint32_t *out,
+                                                  uint64_t capacity, carvel_error *error);
+
+/* The vertex of every corner, counter-clockwise: `corners`. */
+CARVEL_API carvel_status carvel_mesh_face_vertices(const carvel_mesh *mesh, uint32_t *out,
+                                                   uint64_t capacity, carvel_error *error);
+
+/* The two vertices of every edge: 2 * `edges`. Edges are numbered by their
+ * first corner. */
+CARVEL_API carvel_status carvel_mesh_edges(const carvel_mesh *mesh, uint32_t *out,
+                                           uint64_t capacity, carvel_error *error);
+
+/* The edge from every corner to the next one of its face: `corners`. */
+CARVEL_API carvel_status carvel_mesh_corner_edges(const carvel_mesh *mesh, uint32_t *out,
+                                                  uint64_t capacity, carvel_error *error);
+
+/* The corner across that edge, UINT32_MAX on a boundary: `corners`. */
+CARVEL_API carvel_status carvel_mesh_corner_twins(const carvel_mesh *mesh, uint32_t *out,
+                                                  uint64_t capacity, carvel_error *error);
+
+/* The number of faces around every vertex: `vertices`. */
+CARVEL_API carvel_status carvel_mesh_valences(const carvel_mesh *mesh, uint32_t *out,
+                                              uint64_t capacity, carvel_error *error);
+
+/* 1 for every vertex on a boundary, otherwise 0: `vertices`. */
+CARVEL_API carvel_status carvel_mesh_boundary_flags(const carvel_mesh *mesh, uint8_t *out,
+                                                    uint64_t capacity, carvel_error *error);
+
+/* The face of the caller's arrays that became each face: `faces`. For the mesh
+ * of a refined level every face is its own source. */
+CARVEL_API carvel_status carvel_mesh_face_sources(const carvel_mesh *mesh, uint32_t *out,
+                                                  uint64_t capacity, carvel_error *error);
+
+/* The caller's vertex that each vertex is or is a copy of (CARVEL_NON_MANIFOLD_CUT
+ * copies; the copies come last): `vertices`. Positions for the mesh are those of
+ * the sources. */
+CARVEL_API carvel_status carvel_mesh_vertex_sources(const carvel_mesh *mesh, uint32_t *out,
+                                                    uint64_t capacity, carvel_error *error);
+
+/* The tagged corner vertices, ascending: `corner_tags` of carvel_survey. */
+CARVEL_API carvel_status carvel_mesh_corner_tags(const carvel_mesh *mesh, uint32_t *out,
+                                                 uint64_t capacity, carvel_error *error);
+
+/* Checks every stored invariant; O(corners).
+ * Errors: NULL_POINTER, MISALIGNED; BROKEN_INVARIANT is a defect of the library. */
+CARVEL_API carvel_status carvel_mesh_validate(const carvel_mesh *mesh, carvel_error *error);
+
+/* ==========================================================================
+ * Predictions: what a level will cost, before anything is built
+ * ========================================================================== */
+
+/* Bytes that a refinement needs. All stop at UINT64_MAX. */
+typedef struct carvel_bytes {
+    /* sizeof(carvel_bytes). */
+    uint32_t struct_size;
+    /* The level that was asked for. */
+    uint32_t level;
+    /* The adjacency of levels 1 to `level` in a carvel_hierarchy. */
+    uint64_t topology;
+    /* Scratch memory of a refiner while it writes that level. */
+    uint64_t scratch;
+    /* Faces (sizes and vertices) and values of that level. */
+    uint64_t output;
+} carvel_bytes;
+
+/* Prepares the struct for a prediction.
+ * Errors: NULL_POINTER, MISALIGNED, STRUCT_SIZE. */
+CARVEL_API carvel_status carvel_bytes_init(carvel_bytes *bytes, uint32_t struct_size);
+
+/* The counts of a level under a scheme; counts->struct_size must be set. Costs a
+ * look at the boundary and the irregular vertices.
+ * level: 0 to 64; the counts may exceed what 32-bit indices can hold.
+ * Errors: NULL_POINTER, MISALIGNED, STRUCT_SIZE; TOO_LARGE if a count leaves 64
+ * bits, and for more than 64 levels. */
+CARVEL_API carvel_status carvel_predict_counts(const carvel_mesh *mesh,
+                                               const carvel_scheme *scheme, uint32_t level,
+                                               carvel_counts *counts, carvel_error *error);
+
+/* The bytes of refining to a level; bytes->struct_size must be set.
+ * width: values for each vertex, the 3 coordinates and all attributes together,
+ * 1 to 65536.
+ * value_size: 4 for f32, 8 for f64.
+ * Errors: as carvel_predict_counts, and PARAMETER_OUT_OF_RANGE. */
+CARVEL_API carvel_status carvel_predict_bytes(const carvel_mesh *mesh,
+                                              const carvel_scheme *scheme, uint32_t level,
+                                              uint32_t width, uint32_t value_size,
+                                              carvel_bytes *bytes, carvel_error *error);
+
+/* ==========================================================================
+ * Arrays of values and indices
+ * ========================================================================== */
+
+/* Values to read, one record for each vertex. `count` must be the number of
+ * vertices. The layouts are final. */
+typedef struct carvel_const_values_f32 {
+    const float *data;
+    /* Records. */
+    uint64_t count;
+    /* Values in a record, 1 to 65536; 3 for positions. */
+    uint64_t width;
+    /* Bytes from record to record, a multiple of the value's alignment and at
+     * least a record's size; 0 for records one after the other. Those are read
+     * in place, others through a copy. */
+    uint64_t stride;
+} carvel_const_values_f32;
+
+typedef struct carvel_const_values_f64 {
+    const double *data;
+    uint64_t count;
+    uint64_t width;
+    uint64_t stride;
+} carvel_const_values_f64;
+
+/* Values to write: the same, `count` being the number of records that fit, and
+ * `width` that of the input. Bytes between records are left as they are. */
+typedef struct carvel_values_f32 {
+    float *data;
+    uint64_t count;
+    uint64_t width;
+    uint64_t stride;
+} carvel_values_f32;
+
+typedef struct carvel_values_f64 {
+    double *data;
+    uint64_t count;
+    uint64_t width;
+    uint64_t stride;
+} carvel_values_f64;
+
+/* Indices to write: room for `count` entries, or NULL if they are not wanted. */
+typedef struct carvel_indices {
+    uint32_t *data;
+    uint64_t count;
+} carvel_indices;
+
+/* ==========================================================================
+ * carvel_refiner: one-shot, the faces and values of level n
+ *
+ * Keeps its scratch memory from call to call, so that refining the same mesh
+ * again touches no fresh page. One call at a time; give each thread its own.
+ * To evaluate new positions on fixed topology, or for several levels, see
+ * carvel_hierarchy.
+ * ========================================================================== */
+
+typedef struct carvel_refiner carvel_refiner;
+
+/* Makes a refiner without memory yet.
+ * Errors: NULL_POINTER, MISALIGNED. */
+CARVEL_API carvel_status carvel_refiner_create(carvel_refiner **out, carvel_error *error);
+
+/* Destroys a refiner and its scratch memory; NULL is allowed. */
+CARVEL_API void carvel_refiner_destroy(carvel_refiner *refiner);
+
+/* Bytes of scratch memory held. 0 for NULL, and while a call is running. */
+CARVEL_API uint64_t carvel_refiner_bytes(const carvel_refiner *refiner);
+
+/* What to refine. The mesh's own vertices are counted: with
+ * CARVEL_NON_MANIFOLD_CUT there may be more than the caller gave. */
+typedef struct carvel_refine_input_f32 {
+    /* sizeof(carvel_refine_input_f32). */
+    uint32_t struct_size;
+    /* The number of steps, at most 64; 0 copies the input. */
+    uint32_t levels;
+    const carvel_mesh *mesh;
+    const carvel_scheme *scheme;
+    /* xyz of every vertex: width 3. */
+    carvel_const_values_f32 positions;
+    /* Further values, refined by the same rows; at most 256 of them. */
+    const carvel_const_values_f32 *attributes;
+    uint64_t attribute_count;
+} carvel_refine_input_f32;
+
+typedef struct carvel_refine_input_f64 {
+    uint32_t struct_size;
+    uint32_t levels;
+    const carvel_mesh *mesh;
+    const carvel_scheme *scheme;
+    carvel_const_values_f64 positions;
+    const carvel_const_values_f64 *attributes;
+    uint64_t attribute_count;
+} carvel_refine_input_f64;
+
+/* Where the result goes. Sizes are those of carvel_predict_counts. Index arrays
+ * with data NULL are not written. */
+typedef struct carvel_refine_output_f32 {
+    /* sizeof(carvel_refine_output_f32). */
+    uint32_t struct_size;
+    /* Set by the call: 1 if a further step on these faces, as a mesh of their
+     * own, must have carvel_mesh_desc.anchored set. */
+    int32_t anchored;
+    /* The size of every face: `faces`. From level 1 on all but the first
+     * `irregular_faces` are quads. */
+    carvel_indices face_sizes;
+    /* The first corner of every face, and the number of corners: `faces` + 1. */
+    carvel_indices face_offsets;
+    /* The vertices of all faces: `corners`. */
+    carvel_indices face_vertices;
+    /* The face of the control mesh, in carvel_mesh's order, that each face
+     * descends from: `faces`. */
+    carvel_indices face_sources;
+    /* xyz of every vertex: `vertices` records. */
+    carvel_values_f32 positions;
+    /* One for each attribute of the input, of the same width. */
+    const carvel_values_f32 *attributes;
+    uint64_t attribute_count;
+} carvel_refine_output_f32;
+
+typedef struct carvel_refine_output_f64 {
+    uint32_t struct_size;
+    int32_t anchored;
+    carvel_indices face_sizes;
+    carvel_indices face_offsets;
+    carvel_indices face_vertices;
+    carvel_indices face_sources;
+    carvel_values_f64 positions;
+    const carvel_values_f64 *attributes;
+    uint64_t attribute_count;
+} carvel_refine_output_f64;
+
+/* Set defaults: everything empty.
+ * Errors: NULL_POINTER, MISALIGNED, STRUCT_SIZE. */
+CARVEL_API carvel_status carvel_refine_input_f32_init(carvel_refine_input_f32 *input,
+                                                      uint32_t struct_size);
+CARVEL_API carvel_status carvel_refine_input_f64_init(carvel_refine_input_f64 *input,
+                                                      uint32_t struct_size);
+CARVEL_API carvel_status carvel_refine_output_f32_init(carvel_refine_output_f32 *output,
+                                                       uint32_t struct_size);
+CARVEL_API carvel_status carvel_refine_output_f64_init(carvel_refine_output_f64 *output,
+                                                       uint32_t struct_size);
+
+/* Refines into the caller's buffers. Everything is checked before anything is
+ * written, but for overflow and cancellation: after those the buffers' content
+ * is undefined. Costs O(corners of the last level).
+ *
+ * The result does not depend on threads. A mesh built anew from the faces of a
+ * level gives the same surface, numbered otherwise.
+ *
+ * Errors: NULL_POINTER, MISALIGNED, STRUCT_SIZE, INVALID_STRIDE, OVERLAP,
+ * BUFFER_TOO_SMALL; LENGTH_MISMATCH for a wrong count or width;
+ * PARAMETER_OUT_OF_RANGE for too many attributes; NOT_FINITE, OVERFLOW;
+ * TOO_LARGE, MEMORY_CEILING, OUT_OF_RESOURCES; CANCELLED; BUSY. */
+CARVEL_API carvel_status carvel_refiner_refine_f32(carvel_refiner *refiner,
+                                                   const carvel_context *context,
+                                                   const carvel_refine_input_f32 *input,
+                                                   carvel_refine_output_f32 *output,
+                                                   carvel_error *error);
+CARVEL_API carvel_status carvel_refiner_refine_f64(carvel_refiner *refiner,
+                                                   const carvel_context *context,
+                                                   const carvel_refine_input_f64 *input,
+                                                   carvel_refine_output_f64 *output,
+                                                   carvel_error *error);
+
+/* ==========================================================================
+ * carvel_hierarchy: all levels, kept
+ *
+ * Topology once, values as often as wanted: for animation on a fixed topology,
+ * for adjacency and lineage of refined levels. Immutable and shared freely.
+ * ========================================================================== */
+
+typedef struct carvel_hierarchy carvel_hierarchy;
+
+/* Builds levels 1 to `levels` of a mesh under a scheme, all with adjacency. The
+ * mesh is shared, not copied, and may be destroyed.
+ * levels: 0 to 64.
+ * Errors: NULL_POINTER, MISALIGNED, TOO_LARGE, MEMORY_CEILING, OUT_OF_RESOURCES,
+ * CANCELLED. O(corners of the last level). */
+CARVEL_API carvel_status carvel_hierarchy_create(const carvel_context *context,
+                                                 const carvel_mesh *mesh,
+                                                 const carvel_scheme *scheme, uint32_t levels,
+                                                 carvel_hierarchy **out, carvel_error *error);
+
+/* Destroys a hierarchy; meshes had from it live on. NULL is allowed. */
+CARVEL_API void carvel_hierarchy_destroy(carvel_hierarchy *hierarchy);
+
+/* The number of the last level; 0 for NULL. */
+CARVEL_API uint32_t carvel_hierarchy_last_level(const carvel_hierarchy *hierarchy);
+
+/* The sizes of a level; counts->struct_size must be set. No cost.
+ * Errors: NULL_POINTER, MISALIGNED, STRUCT_SIZE; PARAMETER_OUT_OF_RANGE for a
+ * level that was not built. */
+CARVEL_API carvel_status carvel_hierarchy_counts(const carvel_hierarchy *hierarchy,
+                                                 uint32_t level, carvel_counts *counts,
+                                                 carvel_error *error);
+
+/* The mesh of a level, for its arrays and adjacency. It is shared, not copied;
+ * destroy it like any other mesh. No cost.
+ * Errors: NULL_POINTER, MISALIGNED, PARAMETER_OUT_OF_RANGE. */
+CARVEL_API carvel_status carvel_hierarchy_mesh(const carvel_hierarchy *hierarchy, uint32_t level,
+                                               carvel_mesh **out, carvel_error *error);
+
+/* Refines values on the control vertices to a level: a record for every control
+ * vertex in, one of the same width for every vertex of that level out. For
+ * positions, and for anything else that lives on vertices. Everything is checked
+ * before anything is written, but for overflow and cancellation: after those the
+ * buffer's content is undefined. O(vertices of the level).
+ * Errors: NULL_POINTER, MISALIGNED, INVALID_STRIDE, OVERLAP, BUFFER_TOO_SMALL,
+ * LENGTH_MISMATCH, PARAMETER_OUT_OF_RANGE, NOT_FINITE, OVERFLOW, MEMORY_CEILING,
+ * OUT_OF_RESOURCES, CANCELLED. */
+CARVEL_API carvel_status carvel_hierarchy_refine_f32(const carvel_hierarchy *hierarchy,
+                                                     const carvel_context *context,
+                                                     uint32_t level,
+                                                     const carvel_const_values_f32 *values,
+                                                     const carvel_values_f32 *out,
+                                                     carvel_error *error);
+CARVEL_API carvel_status carvel_hierarchy_refine_f64(const carvel_hierarchy *hierarchy,
+                                                     const carvel_context *context,
+                                                     uint32_t level,
+                                                     const carvel_const_values_f64 *values,
+                                                     const carvel_values_f64 *out,
+                                                     carvel_error *error);
+
+enum carvel_origin_kind {
+    /* A face of the level before. */
+    CARVEL_ORIGIN_FACE = 1,
+    /* An edge, by the first corner that it leads away from. */
+    CARVEL_ORIGIN_EDGE = 2,
+    /* A vertex: for a refined vertex, a corner of the boundary or an isolated
+     * vertex. */
+    CARVEL_ORIGIN_VERTEX = 3,
+    /* A corner of a face. */
+    CARVEL_ORIGIN_CORNER = 4,
+    /* The boundary edge that leads away from a corner, near its start. */
+    CARVEL_ORIGIN_EDGE_START = 5,
+    /* The same, near its end. */
+    CARVEL_ORIGIN_EDGE_END = 6
+};
+
+/* The element of the level before that an element descends from; faces and
+ * corners in the order of that level's mesh. The layout is final. */
+typedef struct carvel_origin {
+    /* One of enum carvel_origin_kind. */
+    uint32_t kind;
+    uint32_t index;
+} carvel_origin;
+
+/* Where the vertices of a level come from: `vertices` of that level entries.
+ * level: 1 to the last. Linear cost.
+ * Errors: NULL_POINTER, MISALIGNED, PARAMETER_OUT_OF_RANGE, BUFFER_TOO_SMALL,
+ * OUT_OF_RESOURCES. */
+CARVEL_API carvel_status carvel_hierarchy_vertex_origins(const carvel_hierarchy *hierarchy,
+                                                         uint32_t level, carvel_origin *out,
+                                                         uint64_t capacity, carvel_error *error);
+
+/* Where the faces of a level come from: `faces` of that level entries. */
+CARVEL_API carvel_status carvel_hierarchy_face_origins(const carvel_hierarchy *hierarchy,
+                                                       uint32_t level, carvel_origin *out,
+                                                       uint64_t capacity, carvel_error *error);
+
+/* The weights of one stage of a step as a sparse matrix in CSR form. Stage 0 is
+ * the split, from the vertices of `level` - 1 to those of `level`; stage k is the
+ * k-th smoothing pass, on the vertices of `level`. Stencil tables of whole levels
+ * will replace this.
+ *
+ * offsets: `vertices` of the level + 1 entries.
+ * indices, weights: one for each entry; an index may occur twice in a row. With
+ * capacity 0 both may be NULL and only `offsets` and `count` are written.
+ * count: receives the number of entries; may be NULL.
+ * Errors: NULL_POINTER, MISALIGNED, OVERLAP, PARAMETER_OUT_OF_RANGE for a level
+ * or a stage that there is not, BUFFER_TOO_SMALL; TOO_LARGE if the entries do
+ * not fit 64-bit sizes. */
+CARVEL_EXPERIMENTAL carvel_status carvel_hierarchy_rows(const carvel_hierarchy *hierarchy,
+                                                        uint32_t level, uint32_t stage,
+                                                        uint64_t *offsets,
+                                                        uint64_t offset_capacity,
+                                                        uint32_t *indices, double *weights,
+                                                        uint64_t capacity, uint64_t *count,
+                                                        carvel_error *error);
+
 #ifdef __cplusplus
 }
 #endif
-#endif
+
+#endif /* CARVEL_H */
