@@ -44,7 +44,7 @@ pub(super) fn check_pointer<T>(pointer: *const T, name: impl Into<Name>) -> Resu
 /// Checks that `count` elements of `size` bytes from a pointer on are within what
 /// one object in memory can be; returns the bytes.
 pub(super) fn check_extent(start: usize, count: u64, size: u64, name: Name) -> Result<usize> {
-    let bytes = count.checked_mul(size).filter(|&bytes| bytes <= isize::MAX as u64);
+    let bytes = count.checked_mul(size).filter(|&bytes| isize::try_from(bytes).is_ok());
     let bytes = bytes.filter(|&bytes| start.checked_add(bytes as usize).is_some());
     bytes.map(|bytes| bytes as usize).ok_or_else(|| {
         Fault::new(
@@ -215,4 +215,54 @@ pub(super) fn check_overlap(spans: &[Span]) -> Result<()> {
         }
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn span(start: usize, record: usize, period: usize, count: usize, written: bool) -> Span {
+        Span { start, record, period, count, written, name: "x".into() }
+    }
+
+    #[test]
+    fn overlap_agrees_with_counting_bytes() {
+        let bytes = |s: &Span| {
+            let at = |i| s.start + i * s.period..s.start + i * s.period + s.record;
+            (0..s.count).flat_map(at).collect::<std::collections::HashSet<_>>()
+        };
+        for ahead in 0..70 {
+            for (record, count) in [(4, 4), (12, 3), (8, 1), (16, 4), (4, 0)] {
+                let a = span(100, 4, 16, 4, true);
+                let b = span(60 + ahead, record, 16, count, false);
+                let shared = !bytes(&a).is_disjoint(&bytes(&b));
+                // Where the ends are ragged the check may be stricter, never laxer.
+                assert!(a.meets(&b) >= shared, "{b:?}");
+                assert_eq!(a.meets(&b), b.meets(&a), "{b:?}");
+                if count == 4 {
+                    assert_eq!(a.meets(&b), shared, "{b:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn reading_twice_is_no_overlap() {
+        let (read, written) = (span(0, 8, 8, 4, false), span(24, 8, 8, 4, true));
+        assert!(check_overlap(&[read, read]).is_ok());
+        assert_eq!(check_overlap(&[read, written]).unwrap_err().status, CARVEL_STATUS_OVERLAP);
+        assert_eq!(check_overlap(&[written, read]).unwrap_err().status, CARVEL_STATUS_OVERLAP);
+        assert!(check_overlap(&[read, span(32, 8, 8, 4, true)]).is_ok());
+    }
+
+    #[test]
+    fn extents_beyond_memory_are_refused() {
+        let check = |start, count, size| check_extent(start, count, size, "x".into());
+        assert_eq!(check(16, 4, 8).unwrap(), 32);
+        for (start, count, size) in
+            [(0, u64::MAX, 8), (0, 1 << 61, 8), (0, 1 << 62, 2), (usize::MAX - 8, 2, 8)]
+        {
+            assert_eq!(check(start, count, size).unwrap_err().status, CARVEL_STATUS_TOO_LARGE);
+        }
+    }
 }

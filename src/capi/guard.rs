@@ -149,3 +149,69 @@ fn reason(panic: &(dyn Any + Send)) -> &str {
     let text = panic.downcast_ref::<&str>().copied();
     text.or_else(|| panic.downcast_ref::<String>().map(String::as_str)).unwrap_or("no reason given")
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::capi::{
+        CARVEL_STATUS_POISONED, carvel_error_create, carvel_error_destroy, carvel_error_message,
+        carvel_refiner, carvel_refiner_bytes, carvel_refiner_create, carvel_refiner_destroy,
+    };
+    use std::ffi::CStr;
+    use std::process::Command;
+    use std::ptr::{from_mut, null_mut};
+
+    /// A call with a refiner that runs into a defect.
+    fn defect(refiner: *mut carvel_refiner, error: *mut carvel_error) -> carvel_status {
+        // SAFETY: both objects live, and belong to this thread.
+        unsafe {
+            call(error, |call| {
+                call.object(refiner.cast_const())?;
+                panic!("planted {}", 7);
+            })
+        }
+    }
+
+    #[test]
+    fn a_panic_is_answered_and_poisons_what_it_was_lent() {
+        let (mut refiner, mut error) = (null_mut(), null_mut());
+        // SAFETY: valid pointers to write to, and objects that live until the end.
+        unsafe {
+            assert_eq!(carvel_error_create(from_mut(&mut error)), CARVEL_STATUS_OK);
+            assert_eq!(carvel_refiner_create(from_mut(&mut refiner), error), CARVEL_STATUS_OK);
+            assert_eq!(defect(refiner, error), CARVEL_STATUS_PANIC);
+            let text = CStr::from_ptr(carvel_error_message(error)).to_str().unwrap();
+            assert!(text.contains("planted 7"), "{text}");
+            assert_eq!(defect(refiner, error), CARVEL_STATUS_POISONED);
+            let text = CStr::from_ptr(carvel_error_message(error)).to_str().unwrap();
+            assert!(text.starts_with("carvel_refiner was left unusable"), "{text}");
+            assert_eq!(carvel_refiner_bytes(refiner), 0);
+            carvel_refiner_destroy(refiner);
+            carvel_error_destroy(error);
+        }
+    }
+
+    /// Run by the test below, in a process of its own.
+    #[test]
+    #[ignore = "prints what its parent looks for"]
+    fn two_panics() {
+        assert_eq!(defect(null_mut(), null_mut()), super::super::CARVEL_STATUS_NULL_POINTER);
+        assert!(quietly(|| panic!("a quiet one")).is_err());
+        let pool = Context::builder().threads(2).build().unwrap();
+        let work = |i: u32| assert_ne!(i, 1, "a quiet worker");
+        assert!(quietly(|| pool.for_each(vec![0, 1, 2], work)).is_err());
+        assert!(catch_unwind(|| panic!("a loud one")).is_err());
+    }
+
+    #[test]
+    fn own_panics_print_nothing_and_others_as_before() {
+        let this = std::env::current_exe().unwrap();
+        let run = Command::new(this)
+            .args(["capi::guard::tests::two_panics", "--exact", "--ignored", "--nocapture"])
+            .output()
+            .unwrap();
+        let text = String::from_utf8_lossy(&run.stderr);
+        assert!(run.status.success(), "{text}");
+        assert!(text.contains("a loud one") && !text.contains("a quiet"), "{text}");
+    }
+}

@@ -125,3 +125,64 @@ pub(super) unsafe fn init<S: Versioned>(to: *mut S, size: u32) -> Result<()> {
     }
     Ok(())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::capi::{CARVEL_STATUS_MISALIGNED, CARVEL_STATUS_NULL_POINTER, carvel_scheme_desc};
+
+    fn full() -> carvel_scheme_desc {
+        carvel_scheme_desc { family: 3, corner_rule: 1, boundary: 2, degree: 6, ..initial() }
+    }
+
+    fn read_as(size: u32) -> Result<carvel_scheme_desc> {
+        let desc = carvel_scheme_desc { struct_size: size, ..full() };
+        // SAFETY: a whole struct is there, whatever its size says.
+        unsafe { read(&raw const desc) }
+    }
+
+    #[test]
+    fn a_shorter_struct_is_an_older_version() {
+        let fields = |size| read_as(size).map(|d| (d.family, d.corner_rule, d.boundary, d.degree));
+        assert_eq!(fields(4).unwrap(), (0, 0, 0, 0));
+        assert_eq!(fields(8).unwrap(), (3, 0, 0, 0));
+        assert_eq!(fields(16).unwrap(), (3, 1, 2, 0));
+        assert_eq!(fields(size_of::<carvel_scheme_desc>() as u32).unwrap(), (3, 1, 2, 6));
+    }
+
+    #[test]
+    fn sizes_that_no_version_had_are_refused() {
+        for size in [0, 1, 3, 5, 17, 24, 57, 64, u32::MAX] {
+            assert_eq!(read_as(size).unwrap_err().status, CARVEL_STATUS_STRUCT_SIZE, "{size}");
+        }
+    }
+
+    #[test]
+    fn pointers_are_checked_first() {
+        let refused = |from: *const carvel_scheme_desc| {
+            // SAFETY: neither pointer is followed.
+            unsafe { read(from) }.unwrap_err().status
+        };
+        let desc = full();
+        assert_eq!(refused(std::ptr::null()), CARVEL_STATUS_NULL_POINTER);
+        assert_eq!(refused((&raw const desc).wrapping_byte_add(1)), CARVEL_STATUS_MISALIGNED);
+    }
+
+    #[test]
+    fn a_result_goes_as_far_as_the_struct() {
+        let mut out = carvel_scheme_desc { struct_size: 12, ..initial() };
+        // SAFETY: a whole struct is there.
+        unsafe { write(&raw mut out, &full()).unwrap() };
+        assert_eq!((out.struct_size, out.family, out.corner_rule), (12, 3, 1));
+        assert_eq!((out.boundary, out.degree), (0, 0));
+    }
+
+    #[test]
+    fn init_writes_no_more_than_it_was_told() {
+        let mut out = full();
+        // SAFETY: a whole struct is there.
+        unsafe { init(&raw mut out, 12).unwrap() };
+        assert_eq!((out.struct_size, out.family, out.corner_rule), (12, 0, 0));
+        assert_eq!((out.boundary, out.degree), (2, 6));
+    }
+}
