@@ -127,6 +127,7 @@ install_all() {
         printf '%s\n' "$places" >"$list"
     fi
     trap save EXIT
+    mkdir -p "$destdir/"
     make_dir "$sharedir"
     record file "$sharedir/manifest"
 

@@ -30,16 +30,26 @@ fi
 sed 's/^/-u /' "$work/symbols" >"$work/roots"
 "$ld" -r --force-group-allocation --gc-sections "@$work/roots" -o "$work/all.o" "$in"
 
+# --strip-unneeded: of symbols that only dropped code used, weak ones among them, ld leaves
+# strong undefined ones behind, which another library's weak reference would take up.
 # .llvmbc, .llvmcmd: bitcode that rustc puts beside the code; joined by the linker it is no
 # bitcode any more, and LLVM's plug-in for binutils aborts on it.
-"$objcopy" --keep-global-symbols="$work/symbols" \
+"$objcopy" --keep-global-symbols="$work/symbols" --strip-unneeded \
     --remove-section .llvmbc --remove-section .llvmcmd \
-    --strip-debug "$work/all.o" "$work/${prefix%_}.o"
+    "$work/all.o" "$work/${prefix%_}.o"
 rm -f "$out"
 "$ar" rcsD "$out" "$work/${prefix%_}.o"
 
-if "${READELF:-readelf}" -WS "$out" | grep -q ' GROUP '; then
+undefined() { # BINDING FILE
+    "$nm" -g --undefined-only "$2" 2>/dev/null | sed -n "s/^ *$1 //p" | sort -u
+}
+undefined w "$in" >"$work/weak"
+undefined U "$in" | comm -23 "$work/weak" - >"$work/only-weak"
+undefined U "$out" | comm -12 "$work/only-weak" - >"$work/strengthened"
+groups=$("${READELF:-readelf}" -WS "$out" | grep -c ' GROUP ' || true)
+if [ "$groups" != 0 ] || [ -s "$work/strengthened" ]; then
     rm -f "$out"
-    echo "$ld kept section groups; GNU ld 2.29 or newer is needed" >&2
+    echo "$ld kept $groups section groups, GNU ld 2.29 or newer keeps none;" \
+        "or made weak symbols strong: $(tr '\n' ' ' <"$work/strengthened")" >&2
     exit 1
 fi
