@@ -10,8 +10,9 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::os::unix::fs::symlink;
 use std::path::Path;
+use std::process::Command;
 
-use support::command::{command, refused, run};
+use support::command::{command, output, refused, run};
 use support::stage::{Stage, sources, tree};
 
 /// The version of `Cargo.toml`; installed names follow it.
@@ -131,6 +132,37 @@ fn build_with_pkg_config(stage: &Stage, more: &[&str]) {
     }
 }
 
+fn rustc() -> Command {
+    command(std::env::var("RUSTC").unwrap_or_else(|_| "rustc".to_owned()))
+}
+
+/// The system libraries that rustc says a static library needs, in their order. Few systems
+/// miss one today, so that linking alone does not show that they are there.
+fn system_libraries() -> Vec<String> {
+    let room = tempfile::tempdir().expect("a temporary folder");
+    let mut rustc = rustc();
+    rustc.args(["--edition", "2024", "--crate-type", "staticlib", "--print", "native-static-libs"]);
+    rustc.arg(sources().join("panicking.rs")).arg("-o").arg(room.path().join("lib.a"));
+    let said = output(rustc.env("PREFIX", "any"));
+    let said = String::from_utf8_lossy(&said.stderr);
+    let list = said.lines().find_map(|line| line.strip_prefix("note: native-static-libs: "));
+    list.unwrap_or_else(|| panic!("no list in {said}")).split(' ').map(str::to_owned).collect()
+}
+
+#[test]
+fn static_programs_get_the_system_libraries() {
+    let stage = Stage::installed("a prefix", &[]);
+    let needed = system_libraries();
+    assert!(needed.len() > 1, "{needed:?}");
+    let libraries = pkg_config(&stage, &["--static", "--libs-only-l"]);
+    assert_eq!(libraries, format!("-lcarvel {}", needed.join(" ")));
+    let shared = pkg_config(&stage, &["--libs-only-l"]);
+    assert_eq!(shared, "-lcarvel");
+    run(&mut configure(&stage, "install_cmake.txt", &[]));
+    let libraries = fs::read_to_string(stage.room.path().join("a host/build/libraries"));
+    assert_eq!(libraries.expect("text"), needed.join(";"));
+}
+
 #[test]
 fn programs_find_it_through_pkg_config() {
     let stage = Stage::installed("a prefix", &[]);
@@ -158,7 +190,7 @@ fn moved(stage: &Stage) -> Stage {
 }
 
 /// CMake's program and build folder for `lists`.
-fn configure(stage: &Stage, lists: &str, arguments: &[&str]) -> std::process::Command {
+fn configure(stage: &Stage, lists: &str, arguments: &[&str]) -> Command {
     let source = stage.room.path().join("a host");
     fs::create_dir_all(&source).expect("a folder");
     fs::copy(sources().join(lists), source.join("CMakeLists.txt")).expect("a copy");
@@ -296,11 +328,10 @@ fn unusable_folders_are_refused() {
 #[test]
 fn it_links_beside_other_rust_libraries() {
     let stage = Stage::installed("a prefix", &[]);
-    let rustc = std::env::var("RUSTC").unwrap_or_else(|_| "rustc".to_owned());
     let room = stage.room.path();
     for (name, merged) in [("one", true), ("two", false)] {
         let archive = room.join(format!("lib{name}.a"));
-        run(command(&rustc)
+        run(rustc()
             .args(["--edition", "2024", "--crate-type", "staticlib", "--crate-name", name, "-O"])
             .arg(sources().join("panicking.rs"))
             .arg("-o")
