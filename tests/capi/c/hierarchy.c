@@ -382,8 +382,9 @@ static void check_hierarchy(const poly *control, const carvel_scheme *scheme, in
         check_refiner(hierarchy, kept, scheme, control, level);
     }
     check_lineage(hierarchy, 1, lays_row);
-    /* The row is laid once, and refined along itself from then on. */
-    check_lineage(hierarchy, 2, lays_row);
+    /* The row is laid once, and refined along itself from then on; without one
+     * nothing is ever laid. */
+    check_lineage(hierarchy, 2, 0);
     check_rows(hierarchy, passes, control);
     check_no_more_stages(hierarchy, passes);
     check_not_built(hierarchy);
