@@ -159,7 +159,7 @@ fn one(
         bencher.iter(|| {
             let output = Output {
                 face_sizes: None,
-                face_vertices: &mut faces,
+                face_vertices: Some(&mut faces),
                 face_sources: None,
                 positions: &mut points,
                 attributes: Vec::new(),

@@ -75,6 +75,11 @@ impl Context {
         self.cancel.clone()
     }
 
+    /// Asks for a stop, as [`CancelFlag::cancel`] does.
+    pub fn cancel(&self) {
+        self.cancel.cancel();
+    }
+
     /// Refuses work that is predicted to need more than the ceiling.
     ///
     /// # Errors

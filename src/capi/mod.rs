@@ -1,15 +1,43 @@
-//! The C interface.
+//! The C interface: `include/carvel.h`, object by object.
+//!
+//! A file for each object of the header, in its order; each function checks what
+//! it is given, borrows, calls the kernel once and writes out. The rest is what
+//! they share:
+//!
+//! | file | its idea |
+//! |---|---|
+//! | `guard` | the border: panics caught, errors filled in, objects poisoned |
+//! | `object` | handles: C's opaque pointers and what is behind them |
+//! | `versioned` | structs that may grow, by `struct_size` |
+//! | `buffer` | pointers with counts: NULL, alignment, size, overlap |
+//! | `values` | records with a stride |
+//!
+//! The header is the manual; nothing here is documented twice. From Rust use the
+//! crate itself. Nothing imports this module.
 #![allow(unsafe_code)]
+// Names and contracts are those of the header.
+#![allow(non_camel_case_types, missing_docs, clippy::missing_safety_doc)]
 
-use std::ffi::{CStr, c_char};
+mod buffer;
+mod context;
+mod error;
+mod guard;
+mod hierarchy;
+mod mesh;
+mod object;
+mod predict;
+mod refiner;
+mod scheme;
+mod status;
+mod values;
+mod versioned;
 
-/// The version of the library, such as "0.1.0".
-#[unsafe(no_mangle)]
-pub extern "C" fn carvel_version() -> *const c_char {
-    const VERSION: &CStr =
-        match CStr::from_bytes_with_nul(concat!(env!("CARGO_PKG_VERSION"), "\0").as_bytes()) {
-            Ok(version) => version,
-            Err(_) => c"",
-        };
-    VERSION.as_ptr()
-}
+pub use context::*;
+pub use error::*;
+pub use hierarchy::*;
+pub use mesh::*;
+pub use predict::*;
+pub use refiner::*;
+pub use scheme::*;
+pub use status::*;
+pub use values::*;

@@ -9,6 +9,7 @@ use crate::mesh::Mesh;
 use crate::refine::adjacency::Recycled;
 use crate::refine::{CornerSplit, FaceOrigin, VertexOrigin};
 use crate::scheme::{RowSink, Scheme, SchemeRows};
+use std::sync::Arc;
 
 /// The topology of levels 0 to n of a mesh under a scheme.
 ///
@@ -26,27 +27,32 @@ use crate::scheme::{RowSink, Scheme, SchemeRows};
 #[derive(Debug, Clone)]
 pub struct Hierarchy {
     scheme: Scheme,
-    levels: Vec<Mesh>,
+    levels: Vec<Arc<Mesh>>,
 }
 
 impl Hierarchy {
-    /// Builds levels 1 to `levels`, all with adjacency.
+    /// Builds levels 1 to `levels`, all with adjacency. A control mesh that is
+    /// shared already is not copied.
     ///
     /// # Errors
     /// [`ErrorKind::TooLarge`] or [`ErrorKind::MemoryCeiling`] before anything
     /// is built; [`ErrorKind::Cancelled`].
-    pub fn new(context: &Context, mesh: Mesh, scheme: Scheme, levels: u32) -> Result<Self> {
+    pub fn new(
+        context: &Context,
+        mesh: impl Into<Arc<Mesh>>,
+        scheme: Scheme,
+        levels: u32,
+    ) -> Result<Self> {
+        let mesh = mesh.into();
         let plan = Prediction::new(&mesh, &scheme, levels)?;
-        for counts in plan.levels() {
-            counts.check_index_type()?;
-        }
+        plan.check_index_type()?;
         context.check_memory(plan.topology_bytes())?;
         let mut hierarchy = Self { scheme, levels: vec![mesh] };
         for level in 0..levels {
             let split = hierarchy.split(context, level)?;
             let anchors = hierarchy.scheme.anchors();
             let child = split.mesh(context, anchors, &mut Recycled::default())?;
-            hierarchy.levels.push(child);
+            hierarchy.levels.push(child.into());
             context.report(f64::from(level + 1) / f64::from(levels))?;
         }
         Ok(hierarchy)
@@ -68,6 +74,15 @@ impl Hierarchy {
     /// If `level` is beyond [`Hierarchy::last_level`].
     pub fn mesh(&self, level: u32) -> &Mesh {
         &self.levels[level as usize]
+    }
+
+    /// The mesh of a level, shared: it may outlive the hierarchy.
+    ///
+    /// # Errors
+    /// [`ErrorKind::ParameterOutOfRange`] for a level that was not built.
+    pub fn shared_mesh(&self, level: u32) -> Result<Arc<Mesh>> {
+        self.check_level(level)?;
+        Ok(Arc::clone(&self.levels[level as usize]))
     }
 
     /// Refines values on the control vertices to a level: `width` values per

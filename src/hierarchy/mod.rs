@@ -14,3 +14,5 @@ mod values;
 pub use levels::Hierarchy;
 pub use predict::Prediction;
 pub use refiner::{Attribute, Output, Refined, Refiner, Task};
+#[cfg(feature = "capi")]
+pub(crate) use values::WIDEST;

@@ -66,6 +66,21 @@ impl Prediction {
         &self.levels[self.levels.len() - 1]
     }
 
+    /// Refuses what does not fit 32-bit indices at any level.
+    pub(crate) fn check_index_type(&self) -> Result<()> {
+        self.levels.iter().try_for_each(Counts::check_index_type)
+    }
+
+    /// Scratch memory of a call of a refiner.
+    pub(crate) fn refiner_bytes(&self, width: u64, size: u64, face_sources: bool) -> u64 {
+        if self.levels.len() == 1 {
+            return 0;
+        }
+        let faces = self.levels.iter().map(|counts| counts.faces);
+        let sources = if face_sources { faces.fold(0, u64::saturating_add) } else { 0 };
+        self.scratch_bytes(width, size).saturating_add(sources.saturating_mul(4))
+    }
+
     /// Bytes of the adjacency of all levels but the first; all byte counts stop at
     /// the largest 64-bit number.
     pub fn topology_bytes(&self) -> u64 {

@@ -47,8 +47,8 @@ pub struct Output<'a, T> {
     /// The size of every face, if wanted. All faces but the first
     /// `irregular_faces` are quads (from level 1 on).
     pub face_sizes: Option<&'a mut [u32]>,
-    /// The concatenated vertices of all faces.
-    pub face_vertices: &'a mut [u32],
+    /// The concatenated vertices of all faces, if wanted.
+    pub face_vertices: Option<&'a mut [u32]>,
     /// The control face (in the mesh's order) that each face descends from.
     pub face_sources: Option<&'a mut [u32]>,
     /// xyz of every vertex.
@@ -124,7 +124,7 @@ impl<T: Scalar> Refiner<T> {
         }
         let output = Output {
             face_sizes: Some(&mut refined.face_sizes),
-            face_vertices: &mut refined.face_vertices,
+            face_vertices: Some(&mut refined.face_vertices),
             face_sources: task.face_sources.then_some(&mut refined.face_sources[..]),
             positions: &mut refined.positions,
             attributes: refined.attributes.iter_mut().map(Vec::as_mut_slice).collect(),
@@ -157,7 +157,11 @@ impl<T: Scalar> Refiner<T> {
         self.run(context, task, &plan, output)
     }
 
-    fn run(
+    /// Refines with sizes and limits checked already.
+    ///
+    /// # Errors
+    /// As [`Refiner::refine_into`].
+    pub(crate) fn run(
         &mut self,
         context: &Context,
         task: &Task<T>,
@@ -194,20 +198,12 @@ impl<T: Scalar> Task<'_, T> {
             check_length(&format!("attribute {i}"), a.values.len(), a.width, vertices)?;
         }
         let plan = Prediction::new(self.mesh, self.scheme, self.levels)?;
-        for counts in plan.levels() {
-            counts.check_index_type()?;
-        }
+        plan.check_index_type()?;
         let widths = self.attributes.iter().map(|a| a.width as u64);
         let width = widths.fold(3, u64::saturating_add);
         let output = if with_output { plan.output_bytes(width, T::BYTES) } else { 0 };
-        let scratch = match self.levels {
-            0 => 0,
-            _ => plan.scratch_bytes(width, T::BYTES),
-        };
-        let faces = plan.levels().iter().map(|c| c.faces);
-        let sources = if self.face_sources { faces.fold(0, u64::saturating_add) } else { 0 };
-        let needed = scratch.saturating_add(output).saturating_add(sources.saturating_mul(4));
-        context.check_memory(needed)?;
+        let scratch = plan.refiner_bytes(width, T::BYTES, self.face_sources);
+        context.check_memory(scratch.saturating_add(output))?;
         Ok(plan)
     }
 
@@ -224,7 +220,7 @@ impl<T: Scalar> Task<'_, T> {
     }
 
     /// True if the result is anchored.
-    fn anchored(&self) -> bool {
+    pub(crate) fn anchored(&self) -> bool {
         if self.levels == 0 { self.mesh.is_anchored() } else { self.scheme.anchors() }
     }
 }
@@ -253,7 +249,9 @@ impl<T: Scalar> Output<'_, T> {
                 "face sources must be asked for by the task and by the output alike",
             ));
         }
-        length("face vertices", self.face_vertices.len(), last.corners)?;
+        if let Some(vertices) = &self.face_vertices {
+            length("face vertices", vertices.len(), last.corners)?;
+        }
         length("positions", self.positions.len(), 3 * last.vertices)?;
         length("attributes", self.attributes.len(), task.attributes.len() as u64)?;
         for (out, attribute) in self.attributes.iter().zip(task.attributes) {
@@ -277,7 +275,9 @@ fn copy<T: Scalar>(task: &Task<T>, output: Output<T>) {
             *slot = face;
         }
     }
-    output.face_vertices.copy_from_slice(mesh.corner_vertices());
+    if let Some(vertices) = output.face_vertices {
+        vertices.copy_from_slice(mesh.corner_vertices());
+    }
     output.positions.copy_from_slice(task.positions);
     for (out, attribute) in output.attributes.into_iter().zip(task.attributes) {
         out.copy_from_slice(attribute.values);
@@ -335,7 +335,9 @@ impl<T: Scalar> Run<'_, T> {
         if let Some(sizes) = &mut output.face_sizes {
             split.write_sizes(sizes);
         }
-        split.write_faces(self.context, output.face_vertices)?;
+        if let Some(vertices) = output.face_vertices.take() {
+            split.write_faces(self.context, vertices)?;
+        }
         self.inherit(&mut refiner.face_sources, &split, level, output.face_sources.take())?;
         let step = Step::new(self.task.scheme, &split);
         for (column, &place) in refiner.columns.iter_mut().zip(places) {

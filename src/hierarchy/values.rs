@@ -25,7 +25,7 @@ pub(super) fn check<T: Scalar>(
 }
 
 /// The largest number of values per vertex.
-const WIDEST: usize = 1 << 16;
+pub(crate) const WIDEST: usize = 1 << 16;
 
 /// Checks that there is one record of `width` values per vertex.
 pub(super) fn check_length(name: &str, len: usize, width: usize, vertices: usize) -> Result<()> {

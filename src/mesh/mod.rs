@@ -151,6 +151,35 @@ impl Mesh {
         &self.twin
     }
 
+    /// The two vertices of every edge; edges are numbered by their first corner.
+    pub fn edge_vertices(&self) -> impl Iterator<Item = [u32; 2]> + '_ {
+        let first = |&c: &u32| self.is_first_of_edge(c);
+        let ends = |c| [self.vert[c as usize], self.vert[self.next(c) as usize]];
+        (0..self.layout.corners()).filter(first).map(ends)
+    }
+
+    /// Writes the number of every corner's outgoing edge.
+    ///
+    /// # Panics
+    /// If `out` has another length than [`Mesh::corners`].
+    pub fn write_corner_edges(&self, out: &mut [u32]) {
+        assert_eq!(out.len(), self.corners(), "one entry for each corner");
+        let mut edges = 0;
+        for c in 0..self.layout.corners() {
+            out[c as usize] = if self.is_first_of_edge(c) {
+                edges += 1;
+                edges - 1
+            } else {
+                out[self.twin[c as usize] as usize]
+            };
+        }
+    }
+
+    /// True for the smaller corner of an interior edge, and for a boundary edge's.
+    fn is_first_of_edge(&self, corner: u32) -> bool {
+        corner < self.twin[corner as usize]
+    }
+
     /// The size of every face, in order.
     pub fn face_sizes(&self) -> impl ExactSizeIterator<Item = u32> + '_ {
         (0..self.layout.faces() as usize).map(|f| self.layout.face(f as u32).len() as u32)

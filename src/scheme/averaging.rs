@@ -33,7 +33,7 @@ pub enum Boundary {
 /// surface any more and coordinates overflow within a few levels.
 const LARGEST_PASS: i64 = 1000;
 /// The largest number of passes in one step.
-const MOST_PASSES: usize = 64;
+pub(crate) const MOST_PASSES: usize = 64;
 
 /// A subdivision scheme of the dual averaging family.
 ///

@@ -11,6 +11,8 @@ mod presets;
 mod regular;
 mod rows;
 
+#[cfg(feature = "capi")]
+pub(crate) use averaging::MOST_PASSES;
 pub use averaging::{Boundary, Scheme};
 pub use corner::CornerRule;
 pub(crate) use corner::CornerWeights;

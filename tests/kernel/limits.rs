@@ -376,7 +376,7 @@ impl Arrays {
     fn output(&mut self) -> Output<'_, f64> {
         Output {
             face_sizes: Some(&mut self.face_sizes),
-            face_vertices: &mut self.face_vertices,
+            face_vertices: Some(&mut self.face_vertices),
             face_sources: Some(&mut self.face_sources),
             positions: &mut self.positions,
             attributes: vec![&mut self.attribute],

@@ -140,7 +140,7 @@ fn fill<T: Precise>(
     file.positions = T::points(last.vertices, |positions| {
         let output = Output {
             face_sizes: Some(&mut file.face_sizes),
-            face_vertices: &mut file.face_vertices,
+            face_vertices: Some(&mut file.face_vertices),
             face_sources: Some(&mut faces),
             positions,
             attributes: columns.iter_mut().map(Vec::as_mut_slice).collect(),

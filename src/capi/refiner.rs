@@ -1,0 +1,404 @@
+//! `carvel_refiner`: one-shot, the faces and values of level n.
+
+use super::buffer::{Name, Span, Target, check_overlap, input};
+use super::guard::{Call, call};
+use super::mesh::write_offsets;
+use super::object::{destroy, look, object};
+use super::status::{
+    CARVEL_STATUS_BUSY, CARVEL_STATUS_LENGTH_MISMATCH, CARVEL_STATUS_POISONED, Fault, Result,
+    carvel_status,
+};
+use super::values::{ConstValues, Records, Sink, Source, Values, carvel_indices};
+use super::versioned::{init, read, versioned, write};
+use super::{carvel_context, carvel_error, carvel_mesh, carvel_scheme};
+use crate::base::{Context, Scalar};
+use crate::hierarchy::{Attribute, Output, Prediction, Refiner, Task};
+use crate::mesh::Mesh;
+use crate::scheme::Scheme;
+use std::sync::{Mutex, MutexGuard, TryLockError};
+
+object!(carvel_refiner, Mutex<Refiners>);
+
+/// The most attributes that one call refines.
+const MOST_ATTRIBUTES: u64 = 256;
+
+/// A refiner for each number type.
+#[derive(Default)]
+pub(super) struct Refiners {
+    single: Refiner<f32>,
+    double: Refiner<f64>,
+}
+
+/// A number type of the interface.
+pub(super) trait Precision: Scalar {
+    fn refiner(all: &mut Refiners) -> &mut Refiner<Self>;
+}
+
+impl Precision for f32 {
+    fn refiner(all: &mut Refiners) -> &mut Refiner<Self> {
+        &mut all.single
+    }
+}
+
+impl Precision for f64 {
+    fn refiner(all: &mut Refiners) -> &mut Refiner<Self> {
+        &mut all.double
+    }
+}
+
+versioned! {
+    pub struct RefineInput<T> {
+        pub struct_size: u32,
+        pub levels: u32,
+        pub mesh: *const carvel_mesh,
+        pub scheme: *const carvel_scheme,
+        pub positions: ConstValues<T>,
+        pub attributes: *const ConstValues<T>,
+        pub attribute_count: u64,
+    }
+}
+
+versioned! {
+    pub struct RefineOutput<T> {
+        pub struct_size: u32,
+        pub anchored: i32,
+        pub face_sizes: carvel_indices,
+        pub face_offsets: carvel_indices,
+        pub face_vertices: carvel_indices,
+        pub face_sources: carvel_indices,
+        pub positions: Values<T>,
+        pub attributes: *const Values<T>,
+        pub attribute_count: u64,
+    }
+}
+
+pub type carvel_refine_input_f32 = RefineInput<f32>;
+pub type carvel_refine_input_f64 = RefineInput<f64>;
+pub type carvel_refine_output_f32 = RefineOutput<f32>;
+pub type carvel_refine_output_f64 = RefineOutput<f64>;
+
+/// Records for positions and attributes, positions first.
+type AllRecords<P> = Vec<Records<P>>;
+
+impl<T: Scalar> RefineInput<T> {
+    /// Checks all inputs.
+    ///
+    /// # Safety
+    /// `attributes` leads to as many entries as the count says.
+    unsafe fn check(&self, mesh: &Mesh) -> Result<AllRecords<*const T>> {
+        if self.attribute_count > MOST_ATTRIBUTES {
+            return Err(Fault::out_of_range(format!(
+                "{} attributes: the limit is {MOST_ATTRIBUTES}",
+                self.attribute_count
+            )));
+        }
+        // SAFETY: the caller's contract.
+        let attributes =
+            unsafe { input(self.attributes, self.attribute_count, "input.attributes")? };
+        let vertices = mesh.vertices() as u64;
+        let mut records = vec![self.positions.check(vertices, "input.positions".into())?];
+        if records[0].width != 3 {
+            return Err(Fault::new(
+                CARVEL_STATUS_LENGTH_MISMATCH,
+                format!("input.positions: the width is {}, not 3", records[0].width),
+            ));
+        }
+        for (i, attribute) in attributes.iter().enumerate() {
+            let name = Name { text: "input.attributes", index: Some(i) };
+            records.push(attribute.check(vertices, name)?);
+        }
+        Ok(records)
+    }
+}
+
+impl<T: Scalar> RefineOutput<T> {
+    /// Checks all outputs of values.
+    ///
+    /// # Safety
+    /// `attributes` leads to as many entries as the count says.
+    unsafe fn check(
+        &self,
+        vertices: u64,
+        inputs: &AllRecords<*const T>,
+    ) -> Result<AllRecords<*mut T>> {
+        let expected = inputs.len() as u64 - 1;
+        if self.attribute_count != expected {
+            return Err(Fault::new(
+                CARVEL_STATUS_LENGTH_MISMATCH,
+                format!("{} output attributes for {expected} inputs", self.attribute_count),
+            ));
+        }
+        // SAFETY: the caller's contract.
+        let attributes =
+            unsafe { input(self.attributes, self.attribute_count, "output.attributes")? };
+        let mut records = vec![self.positions.check(vertices, 3, "output.positions".into())?];
+        for (i, (attribute, from)) in attributes.iter().zip(&inputs[1..]).enumerate() {
+            let name = Name { text: "output.attributes", index: Some(i) };
+            records.push(attribute.check(vertices, from.width, name)?);
+        }
+        Ok(records)
+    }
+}
+
+/// The index arrays of an output.
+struct Faces {
+    sizes: Target<u32>,
+    offsets: Target<u32>,
+    vertices: Target<u32>,
+    sources: Target<u32>,
+}
+
+impl Faces {
+    fn of<T>(output: &RefineOutput<T>, plan: &Prediction) -> Self {
+        let last = plan.last();
+        let target = |indices: carvel_indices, needed, name| {
+            Target::new((indices.data, indices.count), needed, name)
+        };
+        Self {
+            sizes: target(output.face_sizes, last.faces, "output.face_sizes"),
+            offsets: target(output.face_offsets, last.faces + 1, "output.face_offsets"),
+            vertices: target(output.face_vertices, last.corners, "output.face_vertices"),
+            sources: target(output.face_sources, last.faces, "output.face_sources"),
+        }
+    }
+
+    /// The arrays that are wanted.
+    fn spans(&self) -> Result<Vec<Span>> {
+        let all = [self.sizes, self.offsets, self.vertices, self.sources];
+        all.iter().filter(|target| target.is_given()).map(Target::span).collect()
+    }
+}
+
+/// Borrows an array, if it is wanted.
+///
+/// # Safety
+/// As [`Target::slice`].
+unsafe fn wanted<'a>(target: &Target<u32>) -> Option<&'a mut [u32]> {
+    // SAFETY: the caller's contract.
+    target.is_given().then(|| unsafe { target.slice() })
+}
+
+/// Everything of a call, checked.
+struct Job<'a, T> {
+    mesh: &'a Mesh,
+    scheme: &'a Scheme,
+    plan: Prediction,
+    inputs: AllRecords<*const T>,
+    outputs: AllRecords<*mut T>,
+    faces: Faces,
+}
+
+impl<'a, T: Precision> Job<'a, T> {
+    /// Checks everything that can be checked before anything is allocated.
+    ///
+    /// # Safety
+    /// The header's contract.
+    unsafe fn check(
+        call: &mut Call<'a>,
+        context: &Context,
+        input: &RefineInput<T>,
+        output: &RefineOutput<T>,
+    ) -> Result<Self> {
+        // SAFETY: the caller's contract.
+        let (mesh, scheme) =
+            unsafe { (&*call.object(input.mesh)?.mesh, call.object(input.scheme)?) };
+        // SAFETY: the caller's contract.
+        let inputs = unsafe { input.check(mesh)? };
+        let plan = Prediction::new(mesh, scheme, input.levels)?;
+        plan.check_index_type()?;
+        // SAFETY: the caller's contract.
+        let outputs = unsafe { output.check(plan.last().vertices, &inputs)? };
+        let faces = Faces::of(output, &plan);
+        let job = Self { mesh, scheme, plan, inputs, outputs, faces };
+        job.check_overlap()?;
+        context.check_memory(job.bytes())?;
+        Ok(job)
+    }
+
+    fn check_overlap(&self) -> Result<()> {
+        let mut spans = self.faces.spans()?;
+        spans.extend(self.inputs.iter().map(Records::read_span));
+        spans.extend(self.outputs.iter().map(Records::write_span));
+        check_overlap(&spans)
+    }
+
+    /// Bytes that the call allocates.
+    fn bytes(&self) -> u64 {
+        let width: usize = self.inputs.iter().map(|records| records.width).sum();
+        let sources = self.faces.sources.is_given();
+        let scratch = self.plan.refiner_bytes(width as u64, T::BYTES, sources);
+        let read = self.inputs.iter().map(Records::copy_bytes::<T>);
+        let written = self.outputs.iter().map(Records::copy_bytes::<T>);
+        read.chain(written).fold(scratch, u64::saturating_add)
+    }
+
+    /// Refines; returns whether the result is anchored.
+    ///
+    /// # Safety
+    /// The header's contract.
+    unsafe fn run(self, context: &Context, refiner: &mut Refiner<T>) -> Result<bool> {
+        // SAFETY: the caller's contract; overlap has been checked.
+        let (inputs, mut sinks) = unsafe { (self.sources()?, self.sinks()?) };
+        let attributes: Vec<_> = inputs.iter().zip(&self.inputs).skip(1).map(attribute).collect();
+        let levels = self.plan.levels().len() as u32 - 1;
+        let mut task = Task::new(self.mesh, self.scheme, levels, inputs[0].values());
+        task.attributes = &attributes;
+        // SAFETY: as above.
+        let mut offsets = unsafe { wanted(&self.faces.offsets) };
+        // SAFETY: as above.
+        let mut sizes = unsafe { wanted(&self.faces.sizes) };
+        let (positions, rest) = sinks.split_at_mut(1);
+        // SAFETY: as above.
+        let (face_vertices, face_sources) =
+            unsafe { (wanted(&self.faces.vertices), wanted(&self.faces.sources)) };
+        task.face_sources = face_sources.is_some();
+        let output = Output {
+            // Offsets alone are made of sizes written one place further.
+            face_sizes: sizes.as_deref_mut().or_else(|| Some(&mut offsets.as_deref_mut()?[1..])),
+            face_vertices,
+            face_sources,
+            positions: positions[0].values(),
+            attributes: rest.iter_mut().map(Sink::values).collect(),
+        };
+        refiner.run(context, &task, &self.plan, output)?;
+        let anchored = task.anchored();
+        if let Some(offsets) = offsets {
+            sum_up(sizes.as_deref(), offsets);
+        }
+        for sink in sinks {
+            // SAFETY: as above.
+            unsafe { sink.finish() };
+        }
+        Ok(anchored)
+    }
+
+    /// # Safety
+    /// The header's contract.
+    unsafe fn sources<'s>(&self) -> Result<Vec<Source<'s, T>>> {
+        // SAFETY: the caller's contract.
+        self.inputs.iter().map(|records| unsafe { records.read() }).collect()
+    }
+
+    /// # Safety
+    /// The header's contract, and overlap has been checked.
+    unsafe fn sinks<'s>(&self) -> Result<Vec<Sink<'s, T>>> {
+        // SAFETY: the caller's contract.
+        self.outputs.iter().map(|records| unsafe { records.sink() }).collect()
+    }
+}
+
+fn attribute<'s, T, P>((source, records): (&'s Source<T>, &Records<P>)) -> Attribute<'s, T> {
+    Attribute { values: source.values(), width: records.width }
+}
+
+/// Offsets from the sizes, which stand in the offsets themselves if there is no
+/// other place.
+fn sum_up(sizes: Option<&[u32]>, offsets: &mut [u32]) {
+    if let Some(sizes) = sizes {
+        return write_offsets(sizes.iter().copied(), offsets);
+    }
+    offsets[0] = 0;
+    for i in 1..offsets.len() {
+        offsets[i] += offsets[i - 1];
+    }
+}
+
+fn lock(refiners: &Mutex<Refiners>) -> Result<MutexGuard<'_, Refiners>> {
+    refiners.try_lock().map_err(|error| match error {
+        TryLockError::WouldBlock => {
+            Fault::new(CARVEL_STATUS_BUSY, "carvel_refiner is at work for another call")
+        }
+        TryLockError::Poisoned(_) => Fault::new(CARVEL_STATUS_POISONED, "carvel_refiner"),
+    })
+}
+
+/// # Safety
+/// The header's contract.
+unsafe fn refine<T: Precision>(
+    refiner: *mut carvel_refiner,
+    context: *const carvel_context,
+    (input, output): (*const RefineInput<T>, *mut RefineOutput<T>),
+    error: *mut carvel_error,
+) -> carvel_status {
+    // SAFETY: the caller's contract.
+    unsafe {
+        call(error, |call| {
+            let refiner = call.object(refiner.cast_const())?;
+            let context = call.context(context)?;
+            let (input, mut result) = (read(input)?, read(output)?);
+            let job = Job::check(call, &context, &input, &result)?;
+            let mut refiners = lock(refiner)?;
+            let anchored = job.run(&context, T::refiner(&mut refiners))?;
+            result.anchored = i32::from(anchored);
+            write(output, &result)
+        })
+    }
+}
+
+/// # Safety
+/// The header's contract.
+unsafe fn bytes(refiner: *const carvel_refiner) -> Option<u64> {
+    // SAFETY: the caller's contract.
+    let handle = unsafe { look(refiner)? };
+    let refiners = handle.value.try_lock().ok()?;
+    Some(refiners.single.bytes() + refiners.double.bytes())
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn carvel_refiner_create(
+    out: *mut *mut carvel_refiner,
+    error: *mut carvel_error,
+) -> carvel_status {
+    // SAFETY: the header's contract.
+    unsafe { call(error, |call| call.create(out, |_| Ok(Mutex::default()))) }
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn carvel_refiner_destroy(refiner: *mut carvel_refiner) {
+    // SAFETY: the header's contract.
+    unsafe { destroy(refiner) }
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn carvel_refiner_bytes(refiner: *const carvel_refiner) -> u64 {
+    // SAFETY: the header's contract.
+    unsafe { bytes(refiner) }.unwrap_or(0)
+}
+
+/// The functions that exist for each number type.
+macro_rules! twins {
+    ($number:ty, $init_input:ident, $init_output:ident, $refine:ident) => {
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $init_input(
+            input: *mut RefineInput<$number>,
+            struct_size: u32,
+        ) -> carvel_status {
+            // SAFETY: the header's contract.
+            unsafe { call(std::ptr::null_mut(), |_| init(input, struct_size)) }
+        }
+
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $init_output(
+            output: *mut RefineOutput<$number>,
+            struct_size: u32,
+        ) -> carvel_status {
+            // SAFETY: the header's contract.
+            unsafe { call(std::ptr::null_mut(), |_| init(output, struct_size)) }
+        }
+
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $refine(
+            refiner: *mut carvel_refiner,
+            context: *const carvel_context,
+            input: *const RefineInput<$number>,
+            output: *mut RefineOutput<$number>,
+            error: *mut carvel_error,
+        ) -> carvel_status {
+            // SAFETY: the header's contract.
+            unsafe { refine(refiner, context, (input, output), error) }
+        }
+    };
+}
+
+twins!(f32, carvel_refine_input_f32_init, carvel_refine_output_f32_init, carvel_refiner_refine_f32);
+twins!(f64, carvel_refine_input_f64_init, carvel_refine_output_f64_init, carvel_refiner_refine_f64);

@@ -1,0 +1,170 @@
+//! `carvel_scheme`: a subdivision scheme with its parameters.
+
+use super::buffer::{input, list};
+use super::carvel_error;
+use super::guard::call;
+use super::object::{destroy, object};
+use super::status::{Fault, Result, carvel_status};
+use super::versioned::{init, read, versioned};
+use crate::base::Fraction;
+use crate::scheme::{Boundary, CornerRule, MOST_PASSES, Scheme};
+
+object!(carvel_scheme, Scheme);
+
+#[repr(C)]
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct carvel_fraction {
+    pub numerator: i64,
+    pub denominator: i64,
+}
+
+pub const CARVEL_SCHEME_DOO_SABIN: i32 = 0;
+pub const CARVEL_SCHEME_THREE_POINT: i32 = 1;
+pub const CARVEL_SCHEME_QUARTIC: i32 = 2;
+pub const CARVEL_SCHEME_B_SPLINE: i32 = 3;
+pub const CARVEL_SCHEME_AVERAGING: i32 = 4;
+
+pub const CARVEL_CORNER_RULE_COSINE: i32 = 0;
+pub const CARVEL_CORNER_RULE_AVERAGE: i32 = 1;
+
+pub const CARVEL_BOUNDARY_EDGE_AND_CORNER: i32 = 0;
+pub const CARVEL_BOUNDARY_EDGE: i32 = 1;
+pub const CARVEL_BOUNDARY_NONE: i32 = 2;
+
+versioned! {
+    pub struct carvel_scheme_desc {
+        pub struct_size: u32,
+        pub family: i32,
+        pub corner_rule: i32,
+        pub boundary: i32,
+        pub w: carvel_fraction,
+        pub degree: u64,
+        pub passes: *const carvel_fraction,
+        pub pass_count: u64,
+    }
+}
+
+impl From<Fraction> for carvel_fraction {
+    fn from(f: Fraction) -> Self {
+        Self { numerator: f.numerator(), denominator: f.denominator() }
+    }
+}
+
+impl carvel_fraction {
+    fn exact(self) -> Result<Fraction> {
+        Ok(Fraction::new(self.numerator, self.denominator)?)
+    }
+}
+
+/// The scheme that a description and its passes ask for.
+fn scheme(desc: &carvel_scheme_desc, passes: &[carvel_fraction]) -> Result<Scheme> {
+    check_foreign_fields(desc)?;
+    let scheme = match desc.family {
+        CARVEL_SCHEME_DOO_SABIN => Scheme::doo_sabin(),
+        CARVEL_SCHEME_THREE_POINT => Scheme::three_point(three_point_w(desc.w)?)?,
+        CARVEL_SCHEME_QUARTIC => Scheme::quartic(),
+        CARVEL_SCHEME_B_SPLINE => Scheme::b_spline(u32::try_from(desc.degree).unwrap_or(u32::MAX))?,
+        CARVEL_SCHEME_AVERAGING => {
+            let passes: Result<Vec<Fraction>> = passes.iter().map(|t| t.exact()).collect();
+            Scheme::dual(&passes?)?
+        }
+        other => return Err(Fault::out_of_range(format!("there is no scheme family {other}"))),
+    };
+    Ok(scheme.with_rule(corner_rule(desc.corner_rule)?).with_boundary(boundary(desc.boundary)?))
+}
+
+/// A parameter that the family does not have is a mistake, not a decoration.
+fn check_foreign_fields(desc: &carvel_scheme_desc) -> Result<()> {
+    let foreign = [
+        ("w", desc.w != carvel_fraction::default(), CARVEL_SCHEME_THREE_POINT),
+        ("degree", desc.degree != 0, CARVEL_SCHEME_B_SPLINE),
+        ("pass_count", desc.pass_count != 0, CARVEL_SCHEME_AVERAGING),
+    ];
+    match foreign.iter().find(|(_, given, family)| *given && desc.family != *family) {
+        Some((name, ..)) => Err(Fault::out_of_range(format!(
+            "{name} is set, but scheme family {} does not have it",
+            desc.family
+        ))),
+        None => Ok(()),
+    }
+}
+
+fn check_pass_count(count: u64) -> Result<()> {
+    if count <= MOST_PASSES as u64 {
+        return Ok(());
+    }
+    Err(Fault::out_of_range(format!("{count} passes: the limit is {MOST_PASSES}")))
+}
+
+fn three_point_w(w: carvel_fraction) -> Result<Fraction> {
+    const PAPER: carvel_fraction = carvel_fraction { numerator: 1, denominator: 32 };
+    if w == carvel_fraction::default() { PAPER.exact() } else { w.exact() }
+}
+
+fn corner_rule(rule: i32) -> Result<CornerRule> {
+    match rule {
+        CARVEL_CORNER_RULE_COSINE => Ok(CornerRule::Cosine),
+        CARVEL_CORNER_RULE_AVERAGE => Ok(CornerRule::Average),
+        other => Err(Fault::out_of_range(format!("there is no corner rule {other}"))),
+    }
+}
+
+fn boundary(rule: i32) -> Result<Boundary> {
+    match rule {
+        CARVEL_BOUNDARY_EDGE_AND_CORNER => Ok(Boundary::EdgeAndCorner),
+        CARVEL_BOUNDARY_EDGE => Ok(Boundary::Edge),
+        CARVEL_BOUNDARY_NONE => Ok(Boundary::None),
+        other => Err(Fault::out_of_range(format!("there is no boundary rule {other}"))),
+    }
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn carvel_scheme_desc_init(
+    desc: *mut carvel_scheme_desc,
+    struct_size: u32,
+) -> carvel_status {
+    // SAFETY: the header's contract.
+    unsafe { call(std::ptr::null_mut(), |_| init(desc, struct_size)) }
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn carvel_scheme_create(
+    desc: *const carvel_scheme_desc,
+    out: *mut *mut carvel_scheme,
+    error: *mut carvel_error,
+) -> carvel_status {
+    let make = || {
+        // SAFETY: the header's contract.
+        let desc = unsafe { read(desc)? };
+        check_pass_count(desc.pass_count)?;
+        // SAFETY: the header's contract.
+        let passes = unsafe { input(desc.passes, desc.pass_count, "passes")? };
+        scheme(&desc, passes)
+    };
+    // SAFETY: the header's contract.
+    unsafe { call(error, |call| call.create(out, |_| make())) }
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn carvel_scheme_destroy(scheme: *mut carvel_scheme) {
+    // SAFETY: the header's contract.
+    unsafe { destroy(scheme) }
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn carvel_scheme_passes(
+    scheme: *const carvel_scheme,
+    out: *mut carvel_fraction,
+    capacity: u64,
+    count: *mut u64,
+    error: *mut carvel_error,
+) -> carvel_status {
+    // SAFETY: the header's contract.
+    unsafe {
+        call(error, |call| {
+            let scheme = call.object(scheme)?;
+            let passes: Vec<_> = scheme.passes().iter().map(|&t| t.into()).collect();
+            list(&passes, out, capacity, count)
+        })
+    }
+}
