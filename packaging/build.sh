@@ -2,6 +2,7 @@
 # build.sh OUT PROFILE: builds both libraries into OUT and, last, OUT/facts, which is
 # all that installing must know, so that `make install` runs no cargo.
 set -eu
+export LC_ALL=C
 cd "$(dirname "$0")/.."
 out=$1
 profile=$2
