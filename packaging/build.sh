@@ -14,7 +14,7 @@ rm -f "$out/facts"
 # the size. A target folder of its own, because cargo gives libcarvel.so no hash and any
 # other build of the package would write over it.
 "$cargo" rustc --locked --lib --profile "$profile" --crate-type cdylib,staticlib \
-    --no-default-features --features capi --target-dir "${CARGO_TARGET_DIR:-target}/capi" \
+    --no-default-features --features capi --target-dir "${CARGO_TARGET_DIR:-target}/packaged" \
     --message-format json-render-diagnostics -- --print native-static-libs \
     >"$out/messages" 2>"$out/log" || { cat "$out/log" >&2; exit 1; }
 
