@@ -10,9 +10,9 @@ cargo=${CARGO:-cargo}
 mkdir -p "$out"
 rm -f "$out/facts"
 
-# Without the rlib among the crate types rustc can optimise across crates: a quarter of
-# the size. A target folder of its own, because cargo gives libcarvel.so no hash and any
-# other build of the package would write over it.
+# Without the rlib among the crate types rustc does the link-time optimisation that the
+# profile asks for. A target folder of its own, because cargo gives libcarvel.so no hash
+# and any other build of the package would write over it.
 "$cargo" rustc --locked --lib --profile "$profile" --crate-type cdylib,staticlib \
     --no-default-features --features capi --target-dir "${CARGO_TARGET_DIR:-target}/packaged" \
     --message-format json-render-diagnostics -- --print native-static-libs \
