@@ -120,9 +120,10 @@ static void end_failing(void)
 
 /* Everything that calls need, and what they should come to. */
 typedef struct setup {
-    poly *control, *shuffled, *mixed;
+    poly *control, *shuffled;
+    uint32_t levels;
     carvel_context *context;
-    carvel_mesh *mesh;
+    carvel_mesh *mesh, *ordered;
     carvel_scheme *scheme;
     carvel_hierarchy *hierarchy;
     level64 expected, level;
@@ -137,6 +138,7 @@ static carvel_status build(const setup *it, const carvel_mesh_desc *desc)
 {
     carvel_mesh *mesh = NULL;
     carvel_status status = carvel_mesh_create(it->context, desc, &mesh, failure);
+    end_failing();
     if (status == CARVEL_STATUS_OK)
         CHECK_OK(carvel_mesh_validate(mesh, failure));
     carvel_mesh_destroy(mesh);
@@ -171,7 +173,7 @@ static carvel_status create_shuffled(setup *it)
 static carvel_status refine(setup *it)
 {
     carvel_refiner *refiner = refiner_of();
-    carvel_refine_input_f64 input = input64(it->mesh, it->scheme, 1, it->control->positions);
+    carvel_refine_input_f64 input = input64(it->mesh, it->scheme, it->levels, it->control->positions);
     carvel_status status = carvel_refiner_refine_f64(refiner, it->context, &input,
                                                      &it->level.output, failure);
     carvel_refiner_destroy(refiner);
@@ -182,7 +184,7 @@ static carvel_status refine(setup *it)
 static carvel_status refine_again(setup *it)
 {
     carvel_refiner *refiner = refiner_of();
-    carvel_refine_input_f64 input = input64(it->mesh, it->scheme, 1, it->control->positions);
+    carvel_refine_input_f64 input = input64(it->mesh, it->scheme, it->levels, it->control->positions);
     carvel_status status = carvel_refiner_refine_f64(refiner, it->context, &input,
                                                      &it->level.output, failure);
     end_failing();
@@ -198,7 +200,7 @@ static carvel_status refine_again(setup *it)
 static carvel_status refine_strided(setup *it)
 {
     carvel_refiner *refiner = refiner_of();
-    carvel_refine_input_f64 input = input64(it->mesh, it->scheme, 1, it->control->positions);
+    carvel_refine_input_f64 input = input64(it->mesh, it->scheme, it->levels, it->control->positions);
     carvel_refine_output_f64 output = it->level.output;
     carvel_status status;
     output.positions.data = it->room;
@@ -212,7 +214,7 @@ static carvel_status create_hierarchy(setup *it)
 {
     carvel_hierarchy *hierarchy = NULL;
     carvel_status status =
-        carvel_hierarchy_create(it->context, it->mesh, it->scheme, 1, &hierarchy, failure);
+        carvel_hierarchy_create(it->context, it->mesh, it->scheme, it->levels, &hierarchy, failure);
     CHECK((hierarchy != NULL) == (status == CARVEL_STATUS_OK));
     carvel_hierarchy_destroy(hierarchy);
     return status;
@@ -225,7 +227,7 @@ static carvel_status refine_hierarchy(setup *it)
     in.data = it->control->positions;
     in.count = it->control->vertices;
     in.width = 3;
-    return carvel_hierarchy_refine_f64(it->hierarchy, it->context, 1, &in,
+    return carvel_hierarchy_refine_f64(it->hierarchy, it->context, it->levels, &in,
                                        &it->level.output.positions, failure);
 }
 
@@ -233,10 +235,11 @@ static carvel_status ask_origins(setup *it)
 {
     uint64_t count = it->level.counts.vertices, faces = it->level.counts.faces;
     carvel_origin *origins = (carvel_origin *)(void *)it->room;
-    carvel_status status = carvel_hierarchy_vertex_origins(it->hierarchy, 1, origins, count,
-                                                           failure);
+    carvel_status status = carvel_hierarchy_vertex_origins(it->hierarchy, it->levels,
+                                                           origins, count, failure);
     if (status == CARVEL_STATUS_OK)
-        status = carvel_hierarchy_face_origins(it->hierarchy, 1, origins, faces, failure);
+        status = carvel_hierarchy_face_origins(it->hierarchy, it->levels, origins, faces,
+                                               failure);
     return status;
 }
 
@@ -244,12 +247,32 @@ static carvel_status survey(setup *it)
 {
     carvel_survey all;
     CHECK_OK(carvel_survey_init(&all, sizeof all));
-    return carvel_mesh_survey(it->mesh, &all, failure);
+    return carvel_mesh_survey(it->ordered, &all, failure);
+}
+
+static carvel_status histogram(setup *it)
+{
+    return carvel_mesh_histogram(it->ordered, CARVEL_HISTOGRAM_FACE_SIZES, NULL, 0, NULL,
+                                 failure);
+}
+
+static carvel_status rows(setup *it)
+{
+    uint64_t count = it->level.counts.vertices + 1;
+    return carvel_hierarchy_rows(it->hierarchy, it->levels, 0, (uint64_t *)(void *)it->room,
+                                 count, NULL, NULL, 0, NULL, failure);
+}
+
+static carvel_status predict(setup *it)
+{
+    carvel_counts counts;
+    CHECK_OK(carvel_counts_init(&counts, sizeof counts));
+    return carvel_predict_counts(it->ordered, it->scheme, it->levels, &counts, failure);
 }
 
 static carvel_status validate(setup *it)
 {
-    return carvel_mesh_validate(it->mesh, failure);
+    return carvel_mesh_validate(it->ordered, failure);
 }
 
 /* --------------------------------------------------------------------- failing */
@@ -304,6 +327,9 @@ static void check_all(setup *it)
     check_call(it, "refine hierarchy", refine_hierarchy);
     check_call(it, "origins", ask_origins);
     check_call(it, "survey", survey);
+    check_call(it, "histogram", histogram);
+    check_call(it, "rows", rows);
+    check_call(it, "predict", predict);
     check_call(it, "validate", validate);
 }
 
@@ -332,15 +358,27 @@ static poly *shuffle(const poly *grid)
     return it;
 }
 
-static void setup_take(setup *it, uint32_t side)
+static carvel_mesh *cut(const poly *it)
 {
+    carvel_mesh *mesh = NULL;
+    carvel_mesh_desc desc;
+    poly_describe(it, &desc);
+    desc.non_manifold = CARVEL_NON_MANIFOLD_CUT;
+    CHECK_OK(carvel_mesh_create(NULL, &desc, &mesh, failure));
+    return mesh;
+}
+
+static void setup_take(setup *it, uint32_t side, uint32_t levels)
+{
+    it->levels = levels;
     it->control = poly_grid(side, side);
     it->shuffled = shuffle(it->control);
     it->mesh = poly_mesh(it->control);
+    it->ordered = cut(it->shuffled);
     it->scheme = scheme_of(CARVEL_SCHEME_THREE_POINT, 0);
-    it->hierarchy = hierarchy_of(it->mesh, it->scheme, 1);
+    it->hierarchy = hierarchy_of(it->mesh, it->scheme, levels);
     it->context = NULL;
-    level64_refine(&it->expected, NULL, it->mesh, it->scheme, 1, it->control->positions);
+    level64_refine(&it->expected, NULL, it->mesh, it->scheme, levels, it->control->positions);
     level64_take(&it->level, &it->expected.counts);
     it->room = TAKE(double, 4 * it->expected.counts.vertices);
 }
@@ -352,22 +390,31 @@ static void setup_free(setup *it)
     level64_free(&it->expected);
     carvel_hierarchy_destroy(it->hierarchy);
     carvel_scheme_destroy(it->scheme);
+    carvel_mesh_destroy(it->ordered);
     carvel_mesh_destroy(it->mesh);
     poly_free(it->shuffled);
     poly_free(it->control);
 }
 
-int main(int count, char **arguments)
+static void run_out(uint32_t side, uint32_t levels, uint32_t threads)
 {
     setup it;
-    check_begin();
-    setup_take(&it, (uint32_t)size_argument(count, arguments, 200));
-    fprintf(stderr, "one thread\n");
-    check_all(&it);
-    fprintf(stderr, "two threads\n");
-    it.context = context_of(2);
+    fprintf(stderr, "%lu by %lu quads, %lu levels, %lu threads\n", (unsigned long)side,
+            (unsigned long)side, (unsigned long)levels, (unsigned long)threads);
+    setup_take(&it, side, levels);
+    if (threads > 1)
+        it.context = context_of(threads);
     check_all(&it);
     carvel_context_destroy(it.context);
     setup_free(&it);
+}
+
+int main(int count, char **arguments)
+{
+    uint32_t side = (uint32_t)size_argument(count, arguments, 200);
+    check_begin();
+    run_out(side, 1, 1);
+    run_out(side, 1, 2);
+    run_out(side / 4, 3, 1);
     return check_end();
 }
