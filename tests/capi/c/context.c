@@ -259,17 +259,16 @@ static carvel_context *limited(uint64_t bytes)
     return context;
 }
 
-/* The refusal comes before the buffers are looked at: these are far too small
- * for level 9, and would be refused for that. */
+/* Refused before work, by a message that names the ceiling. */
 static void check_refused(setup *it, const carvel_context *context, const char *ceiling)
 {
     carvel_hierarchy *hierarchy;
     uint32_t levels = it->input.levels;
     level64 level;
-    carvel_counts counts = predicted(it->mesh, it->scheme, 6);
+    carvel_counts counts = predicted(it->mesh, it->scheme, 7);
     carvel_refiner *fresh = refiner_of();
     level64_take(&level, &counts);
-    it->input.levels = 6;
+    it->input.levels = 7;
     CHECK_STATUS(CARVEL_STATUS_MEMORY_CEILING,
                  carvel_refiner_refine_f64(fresh, context, &it->input, &level.output, failure));
     CHECK(strstr(carvel_error_message(failure), ceiling) != NULL);
