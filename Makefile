@@ -1,10 +1,17 @@
-# carvel: `make demo` shows what it does, `make test` checks everything.
+# carvel: `make demo` shows what it does, `make test` checks everything, `make install`
+# puts the library where C and C++ programs find it.
 
 CARGO ?= cargo
 FUZZ_SECONDS ?= 60
 FUZZ_TARGETS = read_obj read_off read_ply read_stl build_mesh
 
-.PHONY: demo test lint deep fuzz bench tools clean
+# Where `make install` puts things; packaging/install.sh lists all variables.
+PREFIX ?= /usr/local
+PROFILE ?= release
+LIB = out/lib/$(PROFILE)
+export PREFIX DESTDIR LIBDIR INCLUDEDIR STRIP_DEBUG
+
+.PHONY: demo test lint deep fuzz bench lib install uninstall tools test-tools clean
 
 # Refines the cow and the founding paper's torus into out/.
 demo: tools
@@ -12,15 +19,15 @@ demo: tools
 	assets/demo.sh
 
 # Format, lints, every test, the documentation's examples, the lean build.
-test: tools lint
-	$(CARGO) test --locked
+test: test-tools lint
+	$(CARGO) test --workspace --locked
 	$(CARGO) build --locked --no-default-features
 	$(CARGO) bench --locked --no-run
 	OUT=out/test $(MAKE) --no-print-directory demo
 
 lint: tools
-	$(CARGO) fmt --check
-	$(CARGO) clippy --locked --all-targets -- -D warnings
+	$(CARGO) fmt --all --check
+	$(CARGO) clippy --workspace --locked --all-targets -- -D warnings
 	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --locked --no-deps --lib --quiet
 
 # Minutes of work: more random meshes, a large mesh, fuzzing.
@@ -49,8 +56,24 @@ fuzz:
 bench: tools
 	$(CARGO) bench --locked
 
+# The C library, shared and static. `sudo make install` after it runs no cargo.
+lib: $(LIB)/facts
+
+$(LIB)/facts: Cargo.toml Cargo.lock build.rs packaging/build.sh packaging/merge.sh \
+    $(shell find src -name '*.rs')
+	CARGO='$(CARGO)' packaging/build.sh '$(LIB)' '$(PROFILE)'
+
+install: lib
+	packaging/install.sh install '$(LIB)'
+
+uninstall:
+	packaging/install.sh uninstall
+
 tools:
 	@assets/install.sh
+
+test-tools:
+	@assets/install.sh tests
 
 clean:
 	$(CARGO) clean

@@ -1,0 +1,352 @@
+//! `make install` and `make uninstall`, and programs that find the library through
+//! pkg-config and CMake.
+
+mod support {
+    pub mod command;
+    pub mod stage;
+}
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::os::unix::fs::symlink;
+use std::path::Path;
+use std::process::Command;
+
+use support::command::{command, output, refused, run};
+use support::stage::{Stage, sources, tree};
+
+/// The version of `Cargo.toml`; installed names follow it.
+fn version() -> String {
+    let manifest = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../Cargo.toml");
+    let manifest = fs::read_to_string(manifest).expect("Cargo.toml");
+    let line =
+        manifest.lines().find_map(|line| line.strip_prefix("version = ")).expect("a version");
+    line.trim_matches('"').to_owned()
+}
+
+/// docs/abi.md: 0.MINOR before 1.0, then MAJOR.
+fn series() -> String {
+    let version = version();
+    let mut parts = version.split('.');
+    match (parts.next(), parts.next()) {
+        (Some("0"), Some(minor)) => format!("0.{minor}"),
+        (Some(major), _) => major.to_owned(),
+        (None, _) => unreachable!("a version has parts"),
+    }
+}
+
+/// The needed libraries and the name that a shared object or a program records.
+fn dynamic(file: &Path, tag: &str) -> Vec<String> {
+    let table = run(command("readelf").arg("-dW").arg(file));
+    let lines = table.lines().filter(|line| line.contains(tag));
+    lines
+        .filter_map(|line| Some(line.split_once('[')?.1.trim_end_matches(']').to_owned()))
+        .collect()
+}
+
+/// What an `nm` with these arguments finds.
+fn symbols(arguments: &[&str], file: &Path) -> BTreeSet<String> {
+    let table = run(command("nm").args(arguments).arg(file));
+    table.lines().filter_map(|line| Some(line.rsplit_once(' ')?.1.to_owned())).collect()
+}
+
+#[test]
+fn all_is_installed_where_it_belongs() {
+    let stage = Stage::installed("/opt/carvel kernel", &[]);
+    let (version, series) = (version(), series());
+    let found = tree(&stage.at(""));
+    for file in [
+        "include/carvel.h",
+        "include/carvel.hpp",
+        "lib/cmake/carvel/carvelConfig.cmake",
+        "lib/cmake/carvel/carvelConfigVersion.cmake",
+        "lib/libcarvel.a",
+        "lib/libcarvel.so",
+        &format!("lib/libcarvel.so.{series}"),
+        &format!("lib/libcarvel.so.{version}"),
+        "lib/pkgconfig/carvel.pc",
+        "share/carvel/manifest",
+        "share/doc/carvel/LICENSE-APACHE",
+        "share/doc/carvel/LICENSE-MIT",
+    ] {
+        assert!(found.iter().any(|name| name == file), "{file} is not in {found:#?}");
+    }
+    let link = |name: &str| fs::read_link(stage.at("lib").join(name)).expect("a link");
+    assert_eq!(link("libcarvel.so"), Path::new(&format!("libcarvel.so.{series}")));
+    let soname = format!("libcarvel.so.{series}");
+    assert_eq!(link(&soname), Path::new(&format!("libcarvel.so.{version}")));
+    let library = stage.at("lib").join(format!("libcarvel.so.{version}"));
+    assert!(fs::symlink_metadata(&library).expect("the library").is_file());
+    assert_eq!(dynamic(&library, "(SONAME)"), [soname]);
+    // Nothing that is installed knows of the stage or of the sources.
+    for file in found.iter().filter(|name| name.contains("Config") || name.contains("carvel.pc")) {
+        let text = fs::read_to_string(stage.at(file)).expect("text");
+        assert!(!text.contains("carvel stage") && !text.contains('@'), "{file}: {text}");
+    }
+}
+
+#[test]
+fn only_the_interface_is_exported() {
+    let stage = Stage::installed("/usr/local", &[]);
+    let shared = symbols(&["-D", "--defined-only"], &stage.at("lib/libcarvel.so"));
+    let fixed = symbols(&["-g", "--defined-only"], &stage.at("lib/libcarvel.a"));
+    assert!(shared.contains("carvel_version"), "{shared:?}");
+    assert_eq!(shared, fixed);
+    let others: Vec<_> = shared.iter().filter(|name| !name.starts_with("carvel_")).collect();
+    assert!(others.is_empty(), "{others:?}");
+    let sections = run(command("readelf").arg("-SW").arg(stage.at("lib/libcarvel.a")));
+    for name in [" .debug_", " .llvmbc", " GROUP "] {
+        assert!(!sections.contains(name), "{name} in libcarvel.a");
+    }
+    assert!(sections.contains(" .text."), "functions have sections of their own");
+}
+
+/// pkg-config's answer, for a stage that has a DESTDIR or none.
+fn pkg_config(stage: &Stage, arguments: &[&str]) -> String {
+    let mut pkg_config = command("pkg-config");
+    pkg_config.env_remove("PKG_CONFIG_PATH").env("PKG_CONFIG_LIBDIR", stage.at("lib/pkgconfig"));
+    if let Some(destdir) = stage.destdir() {
+        // By a name without spaces, which pkgconf 1.8 would put before the paths twice.
+        let sysroot = stage.plain.path().join("sysroot");
+        if !sysroot.exists() {
+            symlink(destdir, &sysroot).expect("a link");
+        }
+        pkg_config.env("PKG_CONFIG_SYSROOT_DIR", sysroot);
+    }
+    run(pkg_config.args(arguments).arg("carvel"))
+}
+
+/// C and C++ through both libraries with the flags that pkg-config gives.
+fn build_with_pkg_config(stage: &Stage, more: &[&str]) {
+    let shared = pkg_config(stage, &[more, &["--cflags", "--libs"]].concat());
+    let fixed = pkg_config(stage, &[more, &["--static", "--cflags", "--libs"]].concat());
+    // As carvel.pc says it: by its name, or the linker takes the shared one.
+    let fixed = fixed.replace("-lcarvel", "-l:libcarvel.a");
+    let soname = format!("libcarvel.so.{}", series());
+    for (compiler, source) in [("cc", "install_main.c"), ("c++ -std=c++17", "install_main.cpp")] {
+        for (flags, name, is_shared) in [(&shared, "shared", true), (&fixed, "static", false)] {
+            assert_eq!(stage.program(compiler, source, flags, name), version());
+            let needed = dynamic(&stage.room.path().join(name), "(NEEDED)");
+            assert_eq!(needed.contains(&soname), is_shared, "{name}: {needed:?}");
+        }
+    }
+}
+
+fn rustc() -> Command {
+    command(std::env::var("RUSTC").unwrap_or_else(|_| "rustc".to_owned()))
+}
+
+/// The system libraries that rustc says a static library needs, in their order. Few systems
+/// miss one today, so that linking alone does not show that they are there.
+fn system_libraries() -> Vec<String> {
+    let room = tempfile::tempdir().expect("a temporary folder");
+    let mut rustc = rustc();
+    rustc.args(["--edition", "2024", "--crate-type", "staticlib", "--print", "native-static-libs"]);
+    rustc.arg(sources().join("panicking.rs")).arg("-o").arg(room.path().join("lib.a"));
+    let said = output(rustc.env("PREFIX", "any"));
+    let said = String::from_utf8_lossy(&said.stderr);
+    let list = said.lines().find_map(|line| line.strip_prefix("note: native-static-libs: "));
+    list.unwrap_or_else(|| panic!("no list in {said}")).split(' ').map(str::to_owned).collect()
+}
+
+#[test]
+fn static_programs_get_the_system_libraries() {
+    let stage = Stage::installed("a prefix", &[]);
+    let needed = system_libraries();
+    assert!(needed.len() > 1, "{needed:?}");
+    let libraries = pkg_config(&stage, &["--static", "--libs-only-l"]);
+    assert_eq!(libraries, format!("-lcarvel {}", needed.join(" ")));
+    let shared = pkg_config(&stage, &["--libs-only-l"]);
+    assert_eq!(shared, "-lcarvel");
+    run(&mut configure(&stage, "install_cmake.txt", &[]));
+    let libraries = fs::read_to_string(stage.room.path().join("a host/build/libraries"));
+    assert_eq!(libraries.expect("text"), needed.join(";"));
+}
+
+#[test]
+fn programs_find_it_through_pkg_config() {
+    let stage = Stage::installed("a prefix", &[]);
+    assert_eq!(pkg_config(&stage, &["--modversion"]), version());
+    build_with_pkg_config(&stage, &[]);
+}
+
+#[test]
+fn programs_find_a_stage_through_pkg_config() {
+    build_with_pkg_config(&Stage::installed("/opt/carvel kernel", &[]), &[]);
+}
+
+#[test]
+fn a_moved_tree_is_found_through_pkg_config() {
+    let stage = Stage::installed("a prefix", &[]);
+    let moved = moved(&stage);
+    build_with_pkg_config(&moved, &["--define-prefix"]);
+}
+
+/// What is installed there, in another place.
+fn moved(stage: &Stage) -> Stage {
+    let moved = Stage::new("moved away", &[]);
+    fs::rename(stage.at(""), moved.at("")).expect("the tree moves");
+    moved
+}
+
+/// CMake's program and build folder for `lists`.
+fn configure(stage: &Stage, lists: &str, arguments: &[&str]) -> Command {
+    let source = stage.room.path().join("a host");
+    fs::create_dir_all(&source).expect("a folder");
+    fs::copy(sources().join(lists), source.join("CMakeLists.txt")).expect("a copy");
+    for name in ["install_main.c", "install_main.cpp"] {
+        fs::copy(sources().join(name), source.join(name)).expect("a copy");
+    }
+    let mut cmake = command("cmake");
+    cmake.arg("-S").arg(&source).arg("-B").arg(source.join("build")).args(arguments);
+    cmake.arg(format!("-DCMAKE_PREFIX_PATH={}", stage.at("").display()));
+    cmake
+}
+
+fn build_with_cmake(stage: &Stage) {
+    let build = stage.room.path().join("a host/build");
+    run(&mut configure(stage, "install_cmake.txt", &["-DCMAKE_C_FLAGS=-Wall -Werror"]));
+    assert_eq!(fs::read_to_string(build.join("version")).expect("text"), version());
+    run(command("cmake").arg("--build").arg(&build));
+    let soname = format!("libcarvel.so.{}", series());
+    for name in ["shared_c", "shared_cpp", "static_c", "static_cpp"] {
+        // The path to the library is in the program, as CMake leaves it in build folders.
+        assert_eq!(run(&mut command(build.join(name))), version());
+        let needed = dynamic(&build.join(name), "(NEEDED)");
+        assert_eq!(needed.contains(&soname), name.starts_with("shared"), "{name}: {needed:?}");
+    }
+}
+
+#[test]
+fn programs_find_it_through_cmake() {
+    build_with_cmake(&Stage::installed("a prefix", &[]));
+}
+
+#[test]
+fn programs_find_a_moved_stage_through_cmake() {
+    build_with_cmake(&moved(&Stage::installed("/opt/carvel kernel", &[])));
+}
+
+#[test]
+fn cmake_grants_versions_of_the_same_series_only() {
+    let stage = Stage::installed("a prefix", &[]);
+    let expected = [
+        ("0.1", "yes"),
+        ("0.1.0", "yes"),
+        ("0.1.1", "no"),
+        ("0", "no"),
+        ("0.0", "no"),
+        ("0.2", "no"),
+        ("0.10", "no"),
+        ("1.0", "no"),
+        ("1", "no"),
+        ("0.0...0.1", "yes"),
+        ("0.1...<0.2", "yes"),
+        ("0.0...<0.1", "no"),
+        ("0.2...1.0", "no"),
+    ];
+    assert_eq!(version(), "0.1.0", "the requests above are made for this version");
+    let requests: Vec<_> = expected.iter().map(|(request, _)| *request).collect();
+    let requests = format!("-DREQUESTS={}", requests.join(";"));
+    run(&mut configure(&stage, "install_versions.txt", &[&requests]));
+    let answers = fs::read_to_string(stage.room.path().join("a host/build/answers"));
+    let expected: Vec<_> = expected.iter().map(|(r, answer)| format!("{r} {answer}")).collect();
+    assert_eq!(answers.expect("text").lines().collect::<Vec<_>>(), expected);
+}
+
+#[test]
+fn cmake_says_what_is_missing() {
+    let stage = Stage::installed("a prefix", &[]);
+    fs::remove_file(stage.at("lib/libcarvel.a")).expect("the library goes");
+    let said = refused(&mut configure(&stage, "install_cmake.txt", &[]));
+    assert!(said.contains("libcarvel.a is missing"), "{said}");
+}
+
+#[test]
+fn uninstalling_leaves_nothing_and_takes_nothing_else() {
+    let stage = Stage::new("/opt/carvel kernel", &[]);
+    fs::create_dir_all(stage.at("share")).expect("a folder");
+    run(&mut stage.make("install"));
+    // Installing again must not forget what was made the first time.
+    run(&mut stage.make("install"));
+    fs::write(stage.at("include/foreign.h"), "").expect("a foreign file");
+    let said = refused(stage.make("uninstall").arg(format!("LIBDIR={}", "/opt/elsewhere")));
+    assert!(said.contains("installed with other variables"), "{said}");
+    run(&mut stage.make("uninstall"));
+    assert_eq!(tree(&stage.at("")), ["include/", "include/foreign.h", "share/"]);
+    let said = refused(&mut stage.make("uninstall"));
+    assert!(said.contains("nothing is installed there"), "{said}");
+
+    let stage = Stage::installed("/opt/carvel kernel", &[]);
+    run(&mut stage.make("uninstall"));
+    assert_eq!(tree(stage.destdir().expect("a stage")), Vec::<String>::new());
+}
+
+#[test]
+fn libraries_go_where_debian_has_them() {
+    let triplet = run(command("cc").arg("-print-multiarch"));
+    let stage = Stage::installed("/usr", &[]);
+    let library = if triplet.is_empty() { "lib".to_owned() } else { format!("lib/{triplet}") };
+    assert!(stage.at(&library).join("pkgconfig/carvel.pc").is_file(), "{:#?}", tree(&stage.at("")));
+    assert!(stage.at("include/carvel.h").is_file());
+    build_with_cmake(&stage);
+    let text = fs::read_to_string(stage.at(&library).join("pkgconfig/carvel.pc")).expect("text");
+    assert!(text.contains(&format!("\nlibdir=${{prefix}}/{library}\n")), "{text}");
+}
+
+#[test]
+fn folders_can_be_chosen() {
+    let chosen = [("LIBDIR", "/opt/lib 64"), ("INCLUDEDIR", "/srv/head ers/carvel")];
+    let stage = Stage::installed("/opt/carvel kernel", &chosen);
+    let destdir = stage.destdir().expect("a stage").to_path_buf();
+    assert!(destdir.join("srv/head ers/carvel/carvel.h").is_file());
+    assert!(!stage.at("lib").exists() && !stage.at("include").exists());
+    let pkg_config = run(command("pkg-config")
+        .env("PKG_CONFIG_LIBDIR", destdir.join("opt/lib 64/pkgconfig"))
+        .args(["--cflags", "--libs", "carvel"]));
+    assert_eq!(pkg_config, r"-I/srv/head\ ers/carvel -L/opt/lib\ 64 -lcarvel");
+    let place = format!("-Dcarvel_DIR={}", destdir.join("opt/lib 64/cmake/carvel").display());
+    run(&mut configure(&stage, "install_cmake.txt", &[&place]));
+    run(command("cmake").arg("--build").arg(stage.room.path().join("a host/build")));
+    run(&mut stage.make("uninstall"));
+    assert_eq!(tree(&destdir), Vec::<String>::new());
+}
+
+#[test]
+fn unusable_folders_are_refused() {
+    let stage = Stage::new("a prefix", &[]);
+    for prefix in ["relative", "/opt/../opt", "/opt/$(HOME)x;y", "/a\"b"] {
+        let said =
+            refused(stage.make("install").arg(format!("PREFIX={}", prefix.replace('$', "$$"))));
+        assert!(said.contains("is no absolute path") || said.contains("has characters"), "{said}");
+    }
+    assert_eq!(tree(stage.room.path()), Vec::<String>::new());
+}
+
+/// Rust's static libraries carry the standard library. Of carvel's that is hidden, or two
+/// of them would take each other's functions; and panics must still be caught in each.
+#[test]
+fn it_links_beside_other_rust_libraries() {
+    let stage = Stage::installed("a prefix", &[]);
+    let room = stage.room.path();
+    for (name, merged) in [("one", true), ("two", false)] {
+        let archive = room.join(format!("lib{name}.a"));
+        run(rustc()
+            .args(["--edition", "2024", "--crate-type", "staticlib", "--crate-name", name, "-O"])
+            .arg(sources().join("panicking.rs"))
+            .arg("-o")
+            .arg(&archive)
+            .env("PREFIX", name));
+        if merged {
+            let merge = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../packaging/merge.sh");
+            run(command(merge).arg(&archive).arg(&archive).arg(format!("{name}_")));
+        }
+    }
+    let flags = pkg_config(&stage, &["--static", "--cflags", "--libs"]);
+    let flags = flags.replace("-lcarvel", "-l:libone.a -l:libtwo.a -l:libcarvel.a");
+    for (linker, name) in [("", "default"), ("-Wl,--gc-sections", "gc")] {
+        let flags = format!("-L'{}' {flags} {linker}", room.display());
+        let printed = stage.program("cc", "install_panics.c", &flags, name);
+        assert_eq!(printed, format!("{} 11 11", version()));
+    }
+}
