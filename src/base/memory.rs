@@ -1,30 +1,90 @@
-//! Allocation that answers instead of aborting.
+//! Allocation that answers instead of aborting, for every array that grows with
+//! the mesh.
 
 use super::{Error, ErrorKind, Result};
+use bytemuck::Zeroable;
 
 /// An array of zeros. Large ones are untouched pages straight from the system.
-pub(crate) fn zeroed<T: Copy>(zero: T, len: usize) -> Result<Vec<T>> {
-    try_out::<T>(len)?;
-    Ok(vec![zero; len])
+pub(crate) fn zeroed<T: Zeroable>(len: usize) -> Result<Vec<T>> {
+    bytemuck::allocation::try_zeroed_vec(len).map_err(|()| refused::<T>(len))
 }
 
-/// Fails if `len` values of a type could not be had now.
-///
-/// There is no fallible way to ask for zeroed pages, and filling reserved memory
-/// by hand would touch every page twice. So the request is tried out first.
-pub(crate) fn try_out<T>(len: usize) -> Result<()> {
-    Vec::<T>::new().try_reserve_exact(len).map_err(|e| {
-        let bytes = len.saturating_mul(size_of::<T>());
-        Error::new(ErrorKind::OutOfResources, format!("{bytes} bytes could not be had: {e}"))
-    })
+/// An array of one value.
+pub(crate) fn filled<T: Copy>(value: T, len: usize) -> Result<Vec<T>> {
+    let mut list = reserved(len)?;
+    list.resize(len, value);
+    Ok(list)
+}
+
+/// An empty array with room for `len` values.
+pub(crate) fn reserved<T>(len: usize) -> Result<Vec<T>> {
+    let mut list = Vec::new();
+    list.try_reserve_exact(len).map_err(|_| refused::<T>(len))?;
+    Ok(list)
+}
+
+/// What an iterator gives.
+pub(crate) fn collect<T>(items: impl IntoIterator<Item = T>) -> Result<Vec<T>> {
+    let mut list = Vec::new();
+    extend(&mut list, items)?;
+    Ok(list)
+}
+
+/// Adds what an iterator gives.
+pub(crate) fn extend<T>(list: &mut Vec<T>, items: impl IntoIterator<Item = T>) -> Result<()> {
+    let items = items.into_iter();
+    let least = items.size_hint().0;
+    list.try_reserve(least).map_err(|_| refused::<T>(least))?;
+    for item in items {
+        if list.len() == list.capacity() {
+            list.try_reserve(1).map_err(|_| refused::<T>(list.len()))?;
+        }
+        list.push(item);
+    }
+    Ok(())
+}
+
+/// A copy of a slice.
+pub(crate) fn copied<T: Copy>(slice: &[T]) -> Result<Vec<T>> {
+    let mut list = reserved(slice.len())?;
+    list.extend_from_slice(slice);
+    Ok(list)
 }
 
 /// Makes an array exactly `len` long, keeping its memory if it is large enough.
-pub(crate) fn resize<T: Copy>(list: &mut Vec<T>, zero: T, len: usize) -> Result<()> {
+pub(crate) fn resize<T: Copy + Zeroable>(list: &mut Vec<T>, len: usize) -> Result<()> {
     if list.capacity() < len {
         *list = Vec::new();
-        *list = zeroed(zero, len)?;
+        *list = zeroed(len)?;
     }
-    list.resize(len, zero);
+    list.resize(len, T::zeroed());
     Ok(())
+}
+
+fn refused<T>(len: usize) -> Error {
+    let bytes = len.saturating_mul(size_of::<T>());
+    Error::new(ErrorKind::OutOfResources, format!("{bytes} bytes could not be had"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_cannot_be_had_is_refused() {
+        let kind = |result: Result<Vec<u32>>| result.unwrap_err().kind();
+        assert_eq!(kind(zeroed(usize::MAX / 2)), ErrorKind::OutOfResources);
+        assert_eq!(kind(filled(1, usize::MAX / 2)), ErrorKind::OutOfResources);
+        assert_eq!(kind(reserved(usize::MAX / 2)), ErrorKind::OutOfResources);
+    }
+
+    #[test]
+    fn collects_whatever_the_hint_says() {
+        assert_eq!(collect((0..100).filter(|i| i % 3 == 0)).unwrap().len(), 34);
+        let mut list = vec![7];
+        extend(&mut list, 0..3).unwrap();
+        assert_eq!(list, [7, 0, 1, 2]);
+        resize(&mut list, 2).unwrap();
+        assert_eq!(list, [7, 0]);
+    }
 }

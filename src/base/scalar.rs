@@ -51,6 +51,7 @@ pub trait Scalar:
     + Send
     + Sync
     + 'static
+    + bytemuck::Zeroable
     + Add<Output = Self>
     + Sub<Output = Self>
     + Mul<Output = Self>

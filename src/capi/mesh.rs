@@ -118,9 +118,7 @@ impl carvel_mesh_desc {
 
     fn equal_sizes(&self) -> Result<Vec<u32>> {
         self.check_corners(self.face_count * u64::from(self.face_size))?;
-        let mut sizes = memory::zeroed(0, self.face_count as usize)?;
-        sizes.fill(self.face_size);
-        Ok(sizes)
+        Ok(memory::filled(self.face_size, self.face_count as usize)?)
     }
 
     fn sizes_from(&self, offsets: &[u32]) -> Result<Vec<u32>> {
@@ -133,11 +131,7 @@ impl carvel_mesh_desc {
             )));
         }
         self.check_corners(u64::from(offsets[offsets.len() - 1]))?;
-        let mut sizes = memory::zeroed(0, offsets.len() - 1)?;
-        for (size, pair) in sizes.iter_mut().zip(offsets.windows(2)) {
-            *size = pair[1] - pair[0];
-        }
-        Ok(sizes)
+        Ok(memory::collect(offsets.windows(2).map(|pair| pair[1] - pair[0]))?)
     }
 
     fn check_corners(&self, corners: u64) -> Result<()> {

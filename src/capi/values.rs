@@ -177,7 +177,7 @@ impl<T: Scalar> Records<*const T> {
             // SAFETY: checked by `check`; the rest is the contract.
             return Ok(Source::Lent(unsafe { std::slice::from_raw_parts(self.data, self.len()) }));
         }
-        let mut values = memory::zeroed(T::default(), self.len())?;
+        let mut values = memory::zeroed::<T>(self.len())?;
         for (i, record) in values.chunks_exact_mut(self.width).enumerate() {
             // SAFETY: record i is within what `check` has checked; aligned, since
             // the pointer and the stride are.
@@ -215,7 +215,7 @@ impl<T: Scalar> Records<*mut T> {
             let values = unsafe { std::slice::from_raw_parts_mut(self.data, self.len()) };
             return Ok(Sink::Lent(values));
         }
-        Ok(Sink::Copied(memory::zeroed(T::default(), self.len())?, self))
+        Ok(Sink::Copied(memory::zeroed::<T>(self.len())?, self))
     }
 }
 

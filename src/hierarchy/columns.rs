@@ -125,7 +125,7 @@ impl<T: Scalar, const W: usize> Lanes<T, W> {
         }
         let (from, to) = self.levels.split_at_mut(level + 1);
         let to = &mut to[0];
-        resize(to, [T::default(); W], step.children())?;
+        resize(to, step.children())?;
         step.apply(context, source(&from[level], level, place, input), to, &mut self.scratch)?;
         Ok(to.as_flattened())
     }
@@ -145,7 +145,7 @@ impl<T: Scalar, const W: usize> Lanes<T, W> {
             let (out, _) = out.as_chunks_mut();
             return step.apply(context, values, out, &mut self.scratch);
         }
-        resize(&mut self.last, [T::default(); W], step.children())?;
+        resize(&mut self.last, step.children())?;
         step.apply(context, values, &mut self.last, &mut self.scratch)?;
         scatter(&self.last, place.width, place.first, out);
         Ok(())
@@ -157,7 +157,7 @@ impl<T: Scalar, const W: usize> Lanes<T, W> {
             self.levels.push(Vec::new());
         }
         if level == 0 && place.width != W {
-            resize(&mut self.levels[0], [T::default(); W], input.len() / place.width)?;
+            resize(&mut self.levels[0], input.len() / place.width)?;
             gather(input, place.width, place.first, &mut self.levels[0]);
         }
         Ok(())

@@ -4,6 +4,7 @@ use super::columns::{Column, Place};
 use super::predict::Prediction;
 use super::step::Step;
 use super::values::{check, check_length, check_overflow, lanes};
+use crate::base::memory;
 use crate::base::{Context, Error, ErrorKind, Result, Scalar};
 use crate::mesh::Mesh;
 use crate::refine::adjacency::Recycled;
@@ -132,7 +133,7 @@ impl Hierarchy {
     /// [`ErrorKind::ParameterOutOfRange`] for level 0 or one that was not built.
     pub fn vertex_origins(&self, level: u32) -> Result<Vec<VertexOrigin>> {
         let split = self.split_to(level)?;
-        Ok((0..split.counts.vertices as u32).map(|v| split.vertex_origin(v)).collect())
+        memory::collect((0..split.counts.vertices as u32).map(|v| split.vertex_origin(v)))
     }
 
     /// The parent elements, at `level − 1`, of the faces of a level.
@@ -140,7 +141,7 @@ impl Hierarchy {
     /// # Errors
     /// [`ErrorKind::ParameterOutOfRange`] for level 0 or one that was not built.
     pub fn face_origins(&self, level: u32) -> Result<Vec<FaceOrigin>> {
-        Ok(self.split_to(level)?.face_origins().collect())
+        memory::collect(self.split_to(level)?.face_origins())
     }
 
     /// The rows of the step from `level − 1` to `level`, stage by stage: the
@@ -194,7 +195,7 @@ impl Hierarchy {
 
     fn split(&self, context: &Context, level: u32) -> Result<CornerSplit<'_>> {
         let mesh = self.mesh(level);
-        CornerSplit::new(context, mesh, self.scheme.anchor(mesh))
+        CornerSplit::new(context, mesh, self.scheme.anchor(mesh)?)
     }
 }
 

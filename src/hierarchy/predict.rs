@@ -34,7 +34,7 @@ impl Prediction {
         for level in 0..levels {
             let last = counts[level as usize];
             let next = match level {
-                0 => scheme.anchor(mesh).split_counts(mesh),
+                0 => scheme.anchor(mesh)?.split_counts(mesh),
                 _ => last.plain(),
             };
             counts.push(next.ok_or_else(|| {

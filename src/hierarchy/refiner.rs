@@ -111,16 +111,16 @@ impl<T: Scalar> Refiner<T> {
         let plan = task.plan(context, true)?;
         let last = plan.last();
         let mut refined = Refined {
-            face_sizes: zeroed(0, last.faces as usize)?,
-            face_vertices: zeroed(0, last.corners as usize)?,
-            face_sources: zeroed(0, if task.face_sources { last.faces as usize } else { 0 })?,
-            positions: zeroed(T::default(), last.vertices as usize * 3)?,
+            face_sizes: zeroed(last.faces as usize)?,
+            face_vertices: zeroed(last.corners as usize)?,
+            face_sources: zeroed(if task.face_sources { last.faces as usize } else { 0 })?,
+            positions: zeroed(last.vertices as usize * 3)?,
             attributes: Vec::new(),
             anchored: task.anchored(),
         };
         for attribute in task.attributes {
             let len = last.vertices as usize * attribute.width;
-            refined.attributes.push(zeroed(T::default(), len)?);
+            refined.attributes.push(zeroed(len)?);
         }
         let output = Output {
             face_sizes: Some(&mut refined.face_sizes),
@@ -300,7 +300,7 @@ impl<T: Scalar> Run<'_, T> {
         let last = self.task.levels as usize - 1;
         for level in 0..last {
             let parent = owned.as_ref().unwrap_or(self.task.mesh);
-            let split = CornerSplit::new(self.context, parent, self.task.scheme.anchor(parent))?;
+            let split = CornerSplit::new(self.context, parent, self.task.scheme.anchor(parent)?)?;
             let step = Step::new(self.task.scheme, &split);
             for (column, &place) in refiner.columns.iter_mut().zip(&places) {
                 let values = column.step(self.context, &step, level, place, self.input(place))?;
@@ -331,7 +331,7 @@ impl<T: Scalar> Run<'_, T> {
         mut output: Output<T>,
     ) -> Result<()> {
         let level = self.task.levels as usize - 1;
-        let split = CornerSplit::new(self.context, parent, self.task.scheme.anchor(parent))?;
+        let split = CornerSplit::new(self.context, parent, self.task.scheme.anchor(parent)?)?;
         if let Some(sizes) = &mut output.face_sizes {
             split.write_sizes(sizes);
         }
@@ -398,7 +398,7 @@ impl<T: Scalar> Run<'_, T> {
         let to = if let Some(out) = out {
             out
         } else {
-            resize(&mut to[0], 0, split.counts.faces as usize)?;
+            resize(&mut to[0], split.counts.faces as usize)?;
             &mut to[0]
         };
         for (slot, origin) in to.iter_mut().zip(split.face_origins()) {

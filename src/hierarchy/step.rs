@@ -59,13 +59,12 @@ impl<'a> Step<'a> {
         out: &mut [Value<T, W>],
         scratch: &mut Scratch<T, W>,
     ) -> Result<()> {
-        let zero = [T::default(); W];
         let passes = self.scheme.passes().len();
         if passes == 0 {
             return self.split_values(context, values, out);
         }
         let first_quad = self.split.parent().layout.first_quad_corner() as usize;
-        memory::resize(&mut scratch.irregular, zero, first_quad)?;
+        memory::resize(&mut scratch.irregular, first_quad)?;
         context.fill(&mut scratch.irregular, 1, |start, part| {
             let mut rows = SchemeRows::new(self.scheme, self.split);
             let mut sum = Sum::new(values);
@@ -76,7 +75,7 @@ impl<'a> Step<'a> {
         if passes == 1 {
             return self.fused(context, values, &scratch.irregular, out);
         }
-        memory::resize(&mut scratch.stage, zero, out.len())?;
+        memory::resize(&mut scratch.stage, out.len())?;
         // Stages alternate between the two arrays so that the last is `out`.
         let (mut from, mut to) = if passes.is_multiple_of(2) {
             (&mut *scratch.stage, out)

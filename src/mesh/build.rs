@@ -54,28 +54,28 @@ pub fn build(
 ) -> Result<Built, Defects> {
     let offsets = check_sizes(vertices, sizes, indices)?;
     let mut defects = face_defects(context, vertices, &offsets, indices)?;
-    let soup = Soup::arrange(sizes, &offsets, indices, &defects);
+    let soup = Soup::arrange(sizes, &offsets, indices, &defects)?;
     let Pairing { twin, bad } = pair(context, vertices, &soup.vert, |c| soup.layout.next(c))?;
     let unusable = !defects.is_empty();
     let cutting = options.non_manifold == NonManifold::Cut && !unusable;
     if !cutting {
-        defects.extend(bad.iter().map(|edge| soup.edge_defect(edge)));
+        memory::extend(&mut defects, bad.iter().map(|edge| soup.edge_defect(edge)))?;
     }
-    let mut mesh = soup.into_mesh(vertices, twin);
-    if let Some(order) = order::breadth_first(&mesh.layout, &mesh.twin) {
-        mesh.reorder(&order);
+    let mut mesh = soup.into_mesh(vertices, twin)?;
+    if let Some(order) = order::breadth_first(&mesh.layout, &mesh.twin)? {
+        mesh.reorder(&order)?;
     }
     let split = if unusable { Vec::new() } else { several_fans(context, &mut mesh)? };
     let mut vertex_source = None;
     if cutting {
-        vertex_source = cut::separate_fans(&mut mesh, &split);
+        vertex_source = cut::separate_fans(&mut mesh, &split)?;
     } else {
-        defects.extend(fan_defects(&split, &bad));
+        memory::extend(&mut defects, fan_defects(&split, &bad))?;
     }
     if !defects.is_empty() {
         return Err(Defects::Soup(defects));
     }
-    mesh.collect_lists();
+    mesh.collect_lists()?;
     set_tags(&mut mesh, options, vertex_source.as_deref(), vertices)?;
     Ok(Built { mesh, vertex_source })
 }
@@ -96,11 +96,14 @@ fn check_sizes(vertices: usize, sizes: &[u32], indices: &[u32]) -> Result<Vec<u3
             format!("{vertices} vertices and {corners} corners do not fit 32-bit indices"),
         ));
     }
-    // What the arrays below will take, per vertex and per corner.
-    memory::try_out::<[u32; 4]>(vertices)?;
-    memory::try_out::<[u32; 8]>(indices.len())?;
+    if sizes.len() as u64 >= LIMIT {
+        return Err(Error::new(
+            ErrorKind::TooLarge,
+            format!("{} faces do not fit 32-bit indices", sizes.len()),
+        ));
+    }
     let mut sum = 0;
-    let mut offsets = Vec::with_capacity(sizes.len() + 1);
+    let mut offsets = memory::reserved(sizes.len() + 1)?;
     offsets.push(0);
     offsets.extend(sizes.iter().map(|&size| {
         sum += size;
@@ -119,14 +122,18 @@ fn face_defects(
     let faces = offsets.len() - 1;
     let found = context.map(context.chunks(faces), |range| {
         let mut scratch = Vec::new();
-        range
-            .filter_map(|f| {
-                let face = &indices[offsets[f] as usize..offsets[f + 1] as usize];
-                face_defect(f as u64, face, vertices, &mut scratch)
-            })
-            .collect::<Vec<_>>()
+        memory::collect(range.filter_map(|f| {
+            let face = &indices[offsets[f] as usize..offsets[f + 1] as usize];
+            face_defect(f as u64, face, vertices, &mut scratch)
+        }))
     })?;
-    Ok(found.into_iter().flatten().collect())
+    concatenated(found)
+}
+
+/// The lists of all chunks, one after the other.
+fn concatenated<T>(parts: Vec<Result<Vec<T>>>) -> Result<Vec<T>> {
+    let parts = parts.into_iter().collect::<Result<Vec<_>>>()?;
+    memory::collect(parts.into_iter().flatten())
 }
 
 fn face_defect(id: u64, face: &[u32], vertices: usize, scratch: &mut Vec<u32>) -> Option<Defect> {
@@ -162,8 +169,13 @@ struct Soup {
 }
 
 impl Soup {
-    fn arrange(sizes: &[u32], offsets: &[u32], indices: &[u32], defects: &[Defect]) -> Self {
-        let mut usable = vec![true; sizes.len()];
+    fn arrange(
+        sizes: &[u32],
+        offsets: &[u32],
+        indices: &[u32],
+        defects: &[Defect],
+    ) -> Result<Self> {
+        let mut usable = memory::filled(true, sizes.len())?;
         for defect in defects {
             if let Some(Element::Face(face)) = defect.elements().last() {
                 usable[*face as usize] = false;
@@ -173,18 +185,19 @@ impl Soup {
         let side = if all().all(|f| sizes[f] == 3) { 3 } else { 4 };
         let irregular = || all().filter(|&f| sizes[f] != side);
         let regular = || all().filter(|&f| sizes[f] == side);
-        let layout = Layout::new(irregular().map(|f| sizes[f]), side, regular().count() as u32);
+        let layout = Layout::new(irregular().map(|f| sizes[f]), side, regular().count() as u32)?;
         let ordered = || irregular().chain(regular());
         let in_place = ordered().enumerate().all(|(new, old)| new == old);
         if in_place {
-            let vert = indices[..layout.corners() as usize].to_vec();
-            return Self { layout, vert, source: None };
+            let vert = memory::copied(&indices[..layout.corners() as usize])?;
+            return Ok(Self { layout, vert, source: None });
         }
-        let mut vert = Vec::with_capacity(layout.corners() as usize);
+        let mut vert = memory::reserved(layout.corners() as usize)?;
         for f in ordered() {
             vert.extend_from_slice(&indices[offsets[f] as usize..offsets[f + 1] as usize]);
         }
-        Self { layout, vert, source: Some(ordered().map(|f| f as u32).collect()) }
+        let source = Some(memory::collect(ordered().map(|f| f as u32))?);
+        Ok(Self { layout, vert, source })
     }
 
     /// The defect of a bad edge, in terms of the caller's faces.
@@ -202,12 +215,12 @@ impl Soup {
         }
     }
 
-    fn into_mesh(self, vertices: usize, twin: Vec<u32>) -> Mesh {
-        Mesh {
+    fn into_mesh(self, vertices: usize, twin: Vec<u32>) -> Result<Mesh> {
+        Ok(Mesh {
             layout: self.layout,
             vert: self.vert,
             twin,
-            start: vec![NONE; vertices],
+            start: memory::filled(NONE, vertices)?,
             rim: Vec::new(),
             special: Vec::new(),
             special_set: VertexSet::default(),
@@ -215,13 +228,13 @@ impl Soup {
             corner_tags: Vec::new(),
             anchored: false,
             face_source: self.source,
-        }
+        })
     }
 }
 
 /// Sets the starts of all fans; returns the vertices with more than one.
 fn several_fans(context: &Context, mesh: &mut Mesh) -> Result<Vec<u32>> {
-    let mut valence = vec![0_u32; mesh.start.len()];
+    let mut valence = memory::zeroed::<u32>(mesh.start.len())?;
     for (corner, (&v, &twin)) in (0..).zip(mesh.vert.iter().zip(&mesh.twin)) {
         let v = v as usize;
         valence[v] += 1;
@@ -233,9 +246,9 @@ fn several_fans(context: &Context, mesh: &mut Mesh) -> Result<Vec<u32>> {
     let found = context.map(context.chunks(valence.len()), |range| {
         let reached = |v: usize| mesh.fan(v as u32).count() as u32;
         let split = range.filter(|&v| reached(v) != valence[v]);
-        split.map(|v| v as u32).collect::<Vec<_>>()
+        memory::collect(split.map(|v| v as u32))
     })?;
-    Ok(found.into_iter().flatten().collect())
+    concatenated(found)
 }
 
 /// Vertices with several fans; the ends of bad edges are reported by the edge.
@@ -250,21 +263,23 @@ fn fan_defects<'a>(split: &'a [u32], bad: &[BadEdge]) -> impl Iterator<Item = De
 
 impl Mesh {
     /// Puts the faces in another order, before fans and lists exist.
-    fn reorder(&mut self, order: &[u32]) {
-        let new = order::reorder(&self.layout, &self.vert, &self.twin, order);
+    fn reorder(&mut self, order: &[u32]) -> Result<()> {
+        let new = order::reorder(&self.layout, &self.vert, &self.twin, order)?;
         (self.layout, self.vert, self.twin) = (new.layout, new.vert, new.twin);
         let source = |&face: &u32| self.face_source.as_ref().map_or(face, |s| s[face as usize]);
-        self.face_source = Some(order.iter().map(source).collect());
+        self.face_source = Some(memory::collect(order.iter().map(source))?);
+        Ok(())
     }
 
     /// Fills the lists of boundary corners and special vertices.
-    fn collect_lists(&mut self) {
+    fn collect_lists(&mut self) -> Result<()> {
         let corners = 0..self.vert.len() as u32;
-        self.rim = corners.filter(|&c| self.twin[c as usize] == NONE).collect();
+        self.rim = memory::collect(corners.filter(|&c| self.twin[c as usize] == NONE))?;
         let vertices = 0..self.start.len() as u32;
-        self.special = vertices.filter(|&v| !self.is_regular(v)).collect();
-        self.special_set = VertexSet::new(self.start.len(), &self.special);
-        self.near = Near::of(self);
+        self.special = memory::collect(vertices.filter(|&v| !self.is_regular(v)))?;
+        self.special_set = VertexSet::new(self.start.len(), &self.special)?;
+        self.near = Near::of(self)?;
+        Ok(())
     }
 
     /// True for an interior vertex of valence 4.
@@ -291,9 +306,12 @@ fn set_tags(
     if let (true, Some(&v)) = (options.anchored, options.corner_tags.first()) {
         return invalid(v, "cannot be kept: an anchored mesh carries no tags");
     }
-    let mut tags = options.corner_tags.to_vec();
+    let mut tags = memory::copied(options.corner_tags)?;
+    tags.sort_unstable();
     let copies = source.unwrap_or_default().iter().enumerate().skip(vertices);
-    tags.extend(copies.filter(|(_, v)| options.corner_tags.contains(v)).map(|(i, _)| i as u32));
+    let tagged = copies.filter(|(_, v)| tags.binary_search(v).is_ok());
+    let tagged = memory::collect(tagged.map(|(i, _)| i as u32))?;
+    memory::extend(&mut tags, tagged)?;
     tags.sort_unstable();
     tags.dedup();
     if let Some(&v) = tags.iter().find(|&&v| !mesh.on_rim(v)) {

@@ -5,28 +5,25 @@
 //! numbers after the old ones, by vertex and then by smallest corner.
 
 use super::Mesh;
-use crate::base::NONE;
+use crate::base::{NONE, Result, memory};
 
 /// Separates the fans of the given vertices (ascending). Returns the source of
 /// every vertex if any was copied.
-pub(super) fn separate_fans(mesh: &mut Mesh, split: &[u32]) -> Option<Vec<u32>> {
+pub(super) fn separate_fans(mesh: &mut Mesh, split: &[u32]) -> Result<Option<Vec<u32>>> {
     if split.is_empty() {
-        return None;
+        return Ok(None);
     }
-    let mut corners: Vec<(u32, u32)> = (0..)
-        .zip(&mesh.vert)
-        .filter(|(_, v)| split.binary_search(v).is_ok())
-        .map(|(corner, &v)| (v, corner))
-        .collect();
+    let corners = (0..).zip(&mesh.vert).filter(|(_, v)| split.binary_search(v).is_ok());
+    let mut corners = memory::collect(corners.map(|(corner, &v)| (v, corner)))?;
     corners.sort_unstable();
-    let mut source: Vec<u32> = (0..mesh.start.len() as u32).collect();
+    let mut source = memory::collect(0..mesh.start.len() as u32)?;
     for group in corners.chunk_by(|a, b| a.0 == b.0) {
         let old = group[0].0;
-        for (i, fan) in fans(mesh, group).into_iter().enumerate() {
+        for (i, fan) in fans(mesh, group)?.into_iter().enumerate() {
             let id = if i == 0 { old } else { source.len() as u32 };
             if i > 0 {
-                source.push(old);
-                mesh.start.push(NONE);
+                memory::extend(&mut source, [old])?;
+                memory::extend(&mut mesh.start, [NONE])?;
             }
             mesh.start[id as usize] = fan[0];
             for corner in fan {
@@ -34,13 +31,13 @@ pub(super) fn separate_fans(mesh: &mut Mesh, split: &[u32]) -> Option<Vec<u32>> 
             }
         }
     }
-    Some(source)
+    Ok(Some(source))
 }
 
 /// The fans of one vertex, by smallest corner; each starts where a fan starts.
-fn fans(mesh: &Mesh, corners: &[(u32, u32)]) -> Vec<Vec<u32>> {
+fn fans(mesh: &Mesh, corners: &[(u32, u32)]) -> Result<Vec<Vec<u32>>> {
     let mut fans = Vec::new();
-    let mut seen = vec![false; corners.len()];
+    let mut seen = memory::filled(false, corners.len())?;
     for i in 0..corners.len() {
         if seen[i] {
             continue;
@@ -49,16 +46,16 @@ fn fans(mesh: &Mesh, corners: &[(u32, u32)]) -> Vec<Vec<u32>> {
         let mut fan = vec![start];
         let mut corner = mesh.ccw(start);
         while corner != NONE && corner != start {
-            fan.push(corner);
+            memory::extend(&mut fan, [corner])?;
             corner = mesh.ccw(corner);
         }
         for corner in &fan {
             let at = corners.binary_search_by_key(corner, |&(_, c)| c);
             seen[at.expect("a fan stays at its vertex")] = true;
         }
-        fans.push(fan);
+        memory::extend(&mut fans, [fan])?;
     }
-    fans
+    Ok(fans)
 }
 
 /// Clockwise to the boundary, or back to the corner itself, which is then the

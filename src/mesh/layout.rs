@@ -5,6 +5,7 @@
 //! regular faces (quads, or triangles if there is nothing else) follow and need
 //! none, so that the bulk of a refined mesh costs no memory and no look-up.
 
+use crate::base::{Result, memory};
 use std::ops::Range;
 
 /// Face sizes and the corner ↔ face arithmetic of a mesh.
@@ -32,17 +33,21 @@ pub(crate) fn turn_in_quad(first: u32, corner: u32, by: u32) -> u32 {
 impl Layout {
     /// A layout from the sizes of the irregular faces and a number of regular
     /// ones. The caller has checked that the corners fit the index type.
-    pub(crate) fn new(irregular: impl Iterator<Item = u32>, side: u32, regular: u32) -> Self {
+    pub(crate) fn new(
+        irregular: impl Iterator<Item = u32>,
+        side: u32,
+        regular: u32,
+    ) -> Result<Self> {
         debug_assert!(side == 3 || side == 4);
-        let mut offsets = vec![0];
-        let mut face_of = Vec::new();
+        let mut offsets = memory::collect([0])?;
+        let mut face_of: Vec<u32> = Vec::new();
         for (face, size) in (0..).zip(irregular) {
-            face_of.resize(face_of.len() + size as usize, face);
-            offsets.push(face_of.len() as u32);
+            memory::extend(&mut face_of, std::iter::repeat_n(face, size as usize))?;
+            memory::extend(&mut offsets, [face_of.len() as u32])?;
         }
         let corners = face_of.len() as u32 + side * regular;
         let first_quad = if side == 4 { face_of.len() as u32 } else { corners };
-        Self { offsets, face_of, side, corners, first_quad }
+        Ok(Self { offsets, face_of, side, corners, first_quad })
     }
 
     pub(crate) fn corners(&self) -> u32 {
@@ -148,7 +153,7 @@ mod tests {
         for (irregular, side, regular) in
             [(vec![5, 3, 7], 4, 3), (vec![], 4, 2), (vec![], 3, 4), (vec![3], 4, 0)]
         {
-            let layout = Layout::new(irregular.into_iter(), side, regular);
+            let layout = Layout::new(irregular.into_iter(), side, regular).unwrap();
             assert!(layout.is_consistent());
             for f in 0..layout.faces() {
                 let face = layout.face(f);

@@ -9,7 +9,7 @@
 //! are laid out without looking at a single corner.
 
 use super::Mesh;
-use crate::base::NONE;
+use crate::base::{NONE, Result, memory};
 
 /// For each quad: bit i if corner i leads an interior edge, bit 4 + i if it
 /// starts the fan of an interior vertex of valence 4. For each irregular corner:
@@ -33,7 +33,7 @@ pub(crate) const STARTS: u8 = 1 << 4;
 
 impl Near {
     /// Smaller corners lead.
-    pub(crate) fn of(mesh: &Mesh) -> Self {
+    pub(crate) fn of(mesh: &Mesh) -> Result<Self> {
         let first = mesh.layout.first_quad_corner();
         let corner = |c: u32| {
             let twin = mesh.twin[c as usize];
@@ -44,7 +44,14 @@ impl Near {
         };
         let quads = (first..mesh.layout.corners()).step_by(4);
         let quad = |c| (0..4).map(|i| corner(c + i) << i).fold(0, |a, b| a | b);
-        Self { irregular: (0..first).map(corner).collect(), quads: quads.map(quad).collect() }
+        let irregular = memory::collect((0..first).map(corner))?;
+        Ok(Self { irregular, quads: memory::collect(quads.map(quad))? })
+    }
+
+    /// A copy.
+    pub(crate) fn try_clone(&self) -> Result<Self> {
+        let irregular = memory::copied(&self.irregular)?;
+        Ok(Self { irregular, quads: memory::copied(&self.quads)? })
     }
 
     /// The bits of a corner, at places 0 and 4; quads begin at `first`.

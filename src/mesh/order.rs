@@ -7,7 +7,7 @@
 //! mesh is built; [`Mesh::face_source`](super::Mesh::face_source) tells it.
 
 use super::Layout;
-use crate::base::NONE;
+use crate::base::{NONE, Result, memory};
 
 /// Meshes with fewer corners fit the cache in any order.
 const SMALL: usize = 1 << 17;
@@ -16,13 +16,13 @@ const FAR: u32 = 1 << 15;
 
 /// The faces in breadth-first order, irregular ones first, if the given order is
 /// scattered: entry i is the face that comes at place i.
-pub(super) fn breadth_first(layout: &Layout, twin: &[u32]) -> Option<Vec<u32>> {
+pub(super) fn breadth_first(layout: &Layout, twin: &[u32]) -> Result<Option<Vec<u32>>> {
     if !is_scattered(twin) {
-        return None;
+        return Ok(None);
     }
     let faces = layout.faces();
-    let mut order = Vec::with_capacity(faces as usize);
-    let mut seen = vec![false; faces as usize];
+    let mut order = memory::reserved(faces as usize)?;
+    let mut seen = memory::filled(false, faces as usize)?;
     for seed in 0..faces {
         let mut next = order.len();
         visit(seed, &mut seen, &mut order);
@@ -36,9 +36,10 @@ pub(super) fn breadth_first(layout: &Layout, twin: &[u32]) -> Option<Vec<u32>> {
             next += 1;
         }
     }
-    // Stable: regular faces keep the order in which they were met.
-    order.sort_by_key(|&face| face >= layout.irregular_faces());
-    Some(order)
+    // Regular faces keep the order in which they were met.
+    let (irregular, all) = (layout.irregular_faces(), || order.iter().copied());
+    let first = all().filter(|&face| face < irregular);
+    memory::collect(first.chain(all().filter(|&face| face >= irregular))).map(Some)
 }
 
 fn visit(face: u32, seen: &mut [bool], order: &mut Vec<u32>) {
@@ -61,12 +62,17 @@ pub(super) struct Reordered {
 }
 
 /// Puts the faces in an order; irregular ones come first in it.
-pub(super) fn reorder(layout: &Layout, vert: &[u32], twin: &[u32], order: &[u32]) -> Reordered {
+pub(super) fn reorder(
+    layout: &Layout,
+    vert: &[u32],
+    twin: &[u32],
+    order: &[u32],
+) -> Result<Reordered> {
     let irregular = order[..layout.irregular_faces() as usize].iter();
     let sizes = irregular.map(|&f| layout.face(f).len() as u32);
     let regular = layout.faces() - layout.irregular_faces();
-    let new = Layout::new(sizes, layout.side(), regular);
-    let mut moved = vec![0; vert.len()];
+    let new = Layout::new(sizes, layout.side(), regular)?;
+    let mut moved = memory::zeroed(vert.len())?;
     for (corner, old) in (0..).zip(order.iter().flat_map(|&f| layout.face(f))) {
         moved[old as usize] = corner;
     }
@@ -75,5 +81,6 @@ pub(super) fn reorder(layout: &Layout, vert: &[u32], twin: &[u32], order: &[u32]
         NONE => NONE,
         twin => moved[twin as usize],
     });
-    Reordered { layout: new, vert: corners().map(|c| vert[c]).collect(), twin: twins.collect() }
+    let vert = memory::collect(corners().map(|c| vert[c]))?;
+    Ok(Reordered { layout: new, vert, twin: memory::collect(twins)? })
 }

@@ -4,7 +4,7 @@
 //! is counting-sorted by smaller vertex, and the few entries of one vertex are
 //! sorted by the other end. No hash map, and no order that depends on threads.
 
-use crate::base::{Context, NONE, Result};
+use crate::base::{Context, NONE, Result, memory};
 use std::sync::atomic::{AtomicU32, Ordering};
 
 /// Vertices per bucket: the counting sort of one bucket stays in cache.
@@ -50,19 +50,21 @@ pub(super) fn pair(
         });
         deal(sides, buckets)
     })?;
-    let twin: Vec<AtomicU32> = (0..vert.len()).map(|_| AtomicU32::new(NONE)).collect();
+    let dealt = dealt.into_iter().collect::<Result<Vec<_>>>()?;
+    let twin = memory::collect((0..vert.len()).map(|_| AtomicU32::new(NONE)))?;
     let bad = context.map((0..buckets).collect(), |bucket| {
         let parts: Vec<&[Side]> = dealt.iter().map(|d| d.bucket(bucket)).collect();
-        let (sides, bounds) = sort_bucket(&parts, (bucket as u32) << BUCKET_BITS);
+        let (sides, bounds) = sort_bucket(&parts, (bucket as u32) << BUCKET_BITS)?;
         let mut bad = Vec::new();
         for pair in bounds.windows(2) {
-            match_vertex(&sides[pair[0] as usize..pair[1] as usize], vert, &twin, &mut bad);
+            match_vertex(&sides[pair[0] as usize..pair[1] as usize], vert, &twin, &mut bad)?;
         }
-        bad
+        Ok(bad)
     })?;
+    let bad = bad.into_iter().collect::<Result<Vec<_>>>()?;
     // Each entry is stored by one thread only; the atomics make the scatter safe.
     let twin = twin.into_iter().map(AtomicU32::into_inner).collect();
-    Ok(Pairing { twin, bad: bad.into_iter().flatten().collect() })
+    Ok(Pairing { twin, bad: memory::collect(bad.into_iter().flatten())? })
 }
 
 /// The sides of one chunk of corners, grouped by bucket.
@@ -77,33 +79,34 @@ impl Dealt {
     }
 }
 
-fn deal(sides: impl Iterator<Item = Side> + Clone, buckets: usize) -> Dealt {
-    let mut bounds = vec![0; buckets + 1];
+fn deal(sides: impl Iterator<Item = Side> + Clone, buckets: usize) -> Result<Dealt> {
+    let mut bounds = memory::zeroed(buckets + 1)?;
     let bucket = |side: &Side| (side.low >> BUCKET_BITS) as usize;
     for side in sides.clone() {
         bounds[bucket(&side) + 1] += 1;
     }
     accumulate(&mut bounds);
-    let mut place = bounds.clone();
-    let mut dealt = vec![Side::default(); bounds[buckets] as usize];
+    let mut place = memory::copied(&bounds)?;
+    let mut dealt = memory::filled(Side::default(), bounds[buckets] as usize)?;
     for side in sides {
         let at = &mut place[bucket(&side)];
         dealt[*at as usize] = side;
         *at += 1;
     }
-    Dealt { sides: dealt, bounds }
+    Ok(Dealt { sides: dealt, bounds })
 }
 
 /// Sorts one bucket by (low, high, corner); also returns the bounds per `low`.
-fn sort_bucket(parts: &[&[Side]], first: u32) -> (Vec<Side>, Vec<u32>) {
-    let mut bounds = vec![0; (1 << BUCKET_BITS) + 1];
+fn sort_bucket(parts: &[&[Side]], first: u32) -> Result<(Vec<Side>, Vec<u32>)> {
+    let mut bounds = memory::zeroed((1 << BUCKET_BITS) + 1)?;
     let sides = || parts.iter().flat_map(|part| part.iter());
     for side in sides() {
         bounds[(side.low - first) as usize + 1] += 1;
     }
     accumulate(&mut bounds);
-    let mut place = bounds.clone();
-    let mut sorted = vec![Side::default(); parts.iter().map(|part| part.len()).sum()];
+    let mut place = memory::copied(&bounds)?;
+    let sides_in_all = parts.iter().map(|part| part.len()).sum();
+    let mut sorted = memory::filled(Side::default(), sides_in_all)?;
     for side in sides() {
         let at = &mut place[(side.low - first) as usize];
         sorted[*at as usize] = *side;
@@ -113,7 +116,7 @@ fn sort_bucket(parts: &[&[Side]], first: u32) -> (Vec<Side>, Vec<u32>) {
         sorted[pair[0] as usize..pair[1] as usize]
             .sort_unstable_by_key(|side| (side.high, side.corner));
     }
-    (sorted, bounds)
+    Ok((sorted, bounds))
 }
 
 fn accumulate(counts: &mut [u32]) {
@@ -125,7 +128,12 @@ fn accumulate(counts: &mut [u32]) {
 }
 
 /// Pairs the sides that share their smaller vertex.
-fn match_vertex(sides: &[Side], vert: &[u32], twin: &[AtomicU32], bad: &mut Vec<BadEdge>) {
+fn match_vertex(
+    sides: &[Side],
+    vert: &[u32],
+    twin: &[AtomicU32],
+    bad: &mut Vec<BadEdge>,
+) -> Result<()> {
     for edge in sides.chunk_by(|a, b| a.high == b.high) {
         let forward = |side: &Side| vert[side.corner as usize] == side.low;
         match edge {
@@ -134,10 +142,11 @@ fn match_vertex(sides: &[Side], vert: &[u32], twin: &[AtomicU32], bad: &mut Vec<
                 twin[a.corner as usize].store(b.corner, Ordering::Relaxed);
                 twin[b.corner as usize].store(a.corner, Ordering::Relaxed);
             }
-            _ => bad.push(BadEdge {
-                edge: (edge[0].low, edge[0].high),
-                corners: edge.iter().map(|side| side.corner).collect(),
-            }),
+            _ => {
+                let corners = memory::collect(edge.iter().map(|side| side.corner))?;
+                memory::extend(bad, [BadEdge { edge: (edge[0].low, edge[0].high), corners }])?;
+            }
         }
     }
+    Ok(())
 }

@@ -4,6 +4,7 @@
 //! than keeping lists of the quads that have none.
 
 use super::{Mesh, turn_in_quad};
+use crate::base::{Result, memory};
 
 /// A set of vertices, one bit each.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -11,13 +12,13 @@ pub(crate) struct VertexSet(Vec<u64>);
 
 impl VertexSet {
     /// The set of the listed vertices, empty without memory if there are none.
-    pub(crate) fn new(vertices: usize, members: &[u32]) -> Self {
+    pub(crate) fn new(vertices: usize, members: &[u32]) -> Result<Self> {
         let words = if members.is_empty() { 0 } else { vertices.div_ceil(64) };
-        let mut set = vec![0; words];
+        let mut set = memory::zeroed(words)?;
         for &v in members {
             set[v as usize / 64] |= 1 << (v % 64);
         }
-        Self(set)
+        Ok(Self(set))
     }
 
     #[inline(always)]

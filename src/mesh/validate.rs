@@ -66,7 +66,7 @@ impl Mesh {
         ensure(self.rim.iter().copied().eq(open), "rim", self.rim.len())?;
         let special = (0..self.start.len() as u32).filter(|&v| !self.is_regular(v));
         ensure(self.special.iter().copied().eq(special), "special", self.special.len())?;
-        let set = VertexSet::new(self.start.len(), &self.special);
+        let set = VertexSet::new(self.start.len(), &self.special)?;
         self.check_near()?;
         ensure(self.special_set == set, "set of special vertices", self.special.len())?;
         let sorted = self.corner_tags.windows(2).all(|pair| pair[0] < pair[1])

@@ -7,6 +7,7 @@ use super::corner_split::{Child, CornerSplit};
 use crate::base::{Context, NONE, Result, memory};
 use crate::mesh::near::{LEADS, LEADS_ALL, LEADS_NONE, LEADS_OUTER, STARTS};
 use crate::mesh::{Mesh, Near, QuadWalker, VertexSet};
+use bytemuck::Zeroable;
 
 /// Steps around a vertex that are cheaper than a search in the list of hubs.
 const SHORT_FAN: u32 = 16;
@@ -40,9 +41,9 @@ impl Recycled {
 
 /// An array of exactly `len` entries in re-used memory; entries keep whatever
 /// they held, since every one of them is about to be written.
-fn sized<T: Copy>(list: &mut Vec<T>, zero: T, len: usize) -> Result<Vec<T>> {
+fn sized<T: Copy + Zeroable>(list: &mut Vec<T>, len: usize) -> Result<Vec<T>> {
     let mut list = std::mem::take(list);
-    memory::resize(&mut list, zero, len)?;
+    memory::resize(&mut list, len)?;
     Ok(list)
 }
 
@@ -56,46 +57,46 @@ impl CornerSplit<'_> {
     ) -> Result<Mesh> {
         let corners = self.counts.corners as usize;
         let quads = (self.counts.faces - self.counts.irregular_faces) as usize;
-        let mut vert = sized(&mut recycled.vert, 0, corners)?;
+        let mut vert = sized(&mut recycled.vert, corners)?;
         self.write_faces(context, &mut vert)?;
         let places = self.near.irregular.len() + self.near.quads.len();
-        let links = Links::new(self, context, sized(&mut recycled.place, 0, places)?)?;
+        let links = Links::new(self, context, sized(&mut recycled.place, places)?)?;
         let mut child = Mesh {
-            layout: self.child_layout(),
+            layout: self.child_layout()?,
             vert,
-            twin: sized(&mut recycled.twin, 0, corners)?,
-            start: sized(&mut recycled.start, 0, self.counts.vertices as usize)?,
+            twin: sized(&mut recycled.twin, corners)?,
+            start: sized(&mut recycled.start, self.counts.vertices as usize)?,
             rim: Vec::new(),
-            special: self.special(),
+            special: self.special()?,
             special_set: VertexSet::default(),
             near: Near {
-                irregular: vec![0; self.quads as usize],
-                quads: sized(&mut recycled.near, 0, quads)?,
+                irregular: memory::zeroed(self.quads as usize)?,
+                quads: sized(&mut recycled.near, quads)?,
             },
             corner_tags: Vec::new(),
             anchored,
             face_source: None,
         };
-        child.special_set = VertexSet::new(child.start.len(), &child.special);
+        child.special_set = VertexSet::new(child.start.len(), &child.special)?;
         links.write(context, &mut child)?;
-        child.rim = links.rim();
+        child.rim = links.rim()?;
         recycled.place = links.place;
         Ok(child)
     }
 
     /// The children that are not interior vertices of valence 4.
-    fn special(&self) -> Vec<u32> {
+    fn special(&self) -> Result<Vec<u32>> {
         let parent = self.parent;
         let mut special = Vec::new();
         for &v in &parent.special {
             let keeps_rim = parent.on_rim(v) && !self.lays_anchor();
             if keeps_rim || (!parent.on_rim(v) && parent.fan(v).take(3).count() == 2) {
-                special.extend(parent.fan(v));
+                memory::extend(&mut special, parent.fan(v))?;
             }
         }
         special.sort_unstable();
-        special.extend(self.added_vertices());
-        special
+        memory::extend(&mut special, self.added_vertices())?;
+        Ok(special)
     }
 }
 
@@ -119,12 +120,12 @@ impl<'a, 'b> Links<'a, 'b> {
             base += size;
             (v, base - size)
         });
-        let irregular = irregular.collect();
+        let irregular = memory::collect(irregular)?;
         let parent = split.parent;
         let long = |v: &u32| parent.fan(*v).nth(SHORT_FAN as usize).is_some();
         let mut hubs: Vec<(u32, u32)> = Vec::new();
         for v in parent.special.iter().copied().filter(long) {
-            hubs.extend(parent.fan(v).zip(0..));
+            memory::extend(&mut hubs, parent.fan(v).zip(0..))?;
         }
         hubs.sort_unstable();
         Ok(Self { split, place, irregular, hubs })
@@ -492,9 +493,9 @@ impl<'a, 'b> Links<'a, 'b> {
     }
 
     /// The child corners on the boundary, ascending.
-    fn rim(&self) -> Vec<u32> {
+    fn rim(&self) -> Result<Vec<u32>> {
         let parent = self.split.parent;
-        let mut rim = Vec::with_capacity(self.split.counts.boundary_edges as usize);
+        let mut rim = memory::reserved(self.split.counts.boundary_edges as usize)?;
         for &c in &parent.rim {
             let v = parent.vert[c as usize];
             if self.split.lays_anchor() {
@@ -507,7 +508,7 @@ impl<'a, 'b> Links<'a, 'b> {
             }
         }
         rim.sort_unstable();
-        rim
+        Ok(rim)
     }
 }
 

@@ -36,7 +36,7 @@
 //! times slower, each level tripling the places that are read at once.
 
 use super::counts::{Counts, irregular_rim_faces};
-use crate::base::{Context, Error, ErrorKind, NONE, Result};
+use crate::base::{Context, Error, ErrorKind, NONE, Result, memory};
 use crate::mesh::near::{LEADS, STARTS};
 use crate::mesh::{Layout, Mesh, Near};
 use std::borrow::Cow;
@@ -127,9 +127,9 @@ impl<'a> CornerSplit<'a> {
             .split_counts(parent)
             .ok_or_else(|| Error::new(ErrorKind::TooLarge, "the split exceeds 64-bit sizes"))?;
         counts.check_index_type()?;
-        let (irregular, without_quad) = vertex_faces(parent, &anchor);
+        let (irregular, without_quad) = vertex_faces(parent, &anchor)?;
         let isolated = parent.special.iter().copied();
-        let isolated = isolated.filter(|&v| parent.start[v as usize] == NONE).collect();
+        let isolated = memory::collect(isolated.filter(|&v| parent.start[v as usize] == NONE))?;
         let vertex_faces = parent.layout.first_quad_corner();
         let quads = vertex_faces + irregular.iter().map(|&(_, size)| size).sum::<u32>();
         let mut split = Self {
@@ -144,7 +144,7 @@ impl<'a> CornerSplit<'a> {
             chunks: Vec::new(),
             near: Cow::Borrowed(&parent.near),
         };
-        split.frame_near();
+        split.frame_near()?;
         split.chunks = split.cut(context)?;
         Ok(split)
     }
@@ -182,17 +182,20 @@ impl<'a> CornerSplit<'a> {
     }
 
     /// Adds the quads of boundary edges and boundary vertices.
-    fn frame_near(&mut self) {
+    fn frame_near(&mut self) -> Result<()> {
         if !self.lays_anchor() || self.parent.is_closed() {
-            return;
+            return Ok(());
         }
+        let mut near = self.parent.near.try_clone()?;
         let first = self.vertex_faces;
         for &c in &self.parent.rim {
             // The fan of a boundary vertex starts at its rim corner.
             let v = self.parent.vert[c as usize];
             let quad = self.without_quad.binary_search(&v).is_err();
-            self.near.to_mut().set(first, c, LEADS | if quad { STARTS } else { 0 });
+            near.set(first, c, LEADS | if quad { STARTS } else { 0 });
         }
+        self.near = Cow::Owned(near);
+        Ok(())
     }
 
     /// True if the fan of a vertex that gets a quad starts at the corner.
@@ -261,7 +264,7 @@ impl<'a> CornerSplit<'a> {
     }
 
     /// The layout of the child mesh.
-    pub(super) fn child_layout(&self) -> Layout {
+    pub(super) fn child_layout(&self) -> Result<Layout> {
         let layout = &self.parent.layout;
         let kept = if layout.side() == 4 { layout.irregular_faces() } else { layout.faces() };
         let faces = (0..kept).map(|f| layout.face(f).len() as u32);
@@ -271,8 +274,11 @@ impl<'a> CornerSplit<'a> {
     }
 }
 
+/// Vertices with the sizes of their faces, and vertices alone.
+type VertexFaces = (Vec<(u32, u32)>, Vec<u32>);
+
 /// The irregular vertex faces with their sizes, and the vertices without a quad.
-fn vertex_faces(parent: &Mesh, anchor: &Anchor) -> (Vec<(u32, u32)>, Vec<u32>) {
+fn vertex_faces(parent: &Mesh, anchor: &Anchor) -> Result<VertexFaces> {
     let mut irregular = Vec::new();
     let mut without_quad = Vec::new();
     for &v in &parent.special {
@@ -282,13 +288,13 @@ fn vertex_faces(parent: &Mesh, anchor: &Anchor) -> (Vec<(u32, u32)>, Vec<u32>) {
             parent.fan(v).count() as u32
         };
         if size != 4 {
-            without_quad.push(v);
+            memory::extend(&mut without_quad, [v])?;
         }
         if size >= 3 && size != 4 {
-            irregular.push((v, size));
+            memory::extend(&mut irregular, [(v, size)])?;
         }
     }
-    (irregular, without_quad)
+    Ok((irregular, without_quad))
 }
 
 /// The number of child quads of edges and vertices near some corners.

@@ -11,7 +11,7 @@
 //! scheme, mask [1,9,22,22,9,1]/32, is the dual split with one pass t = ½.
 
 use super::CornerRule;
-use crate::base::{Error, ErrorKind, Fraction, Result};
+use crate::base::{Error, ErrorKind, Fraction, Result, memory};
 use crate::mesh::Mesh;
 use crate::refine::Anchor;
 
@@ -105,17 +105,17 @@ impl Scheme {
     }
 
     /// What the next step of this scheme does along the boundary of a mesh.
-    pub(crate) fn anchor(&self, mesh: &Mesh) -> Anchor {
+    pub(crate) fn anchor(&self, mesh: &Mesh) -> Result<Anchor> {
         if self.boundary == Boundary::None || mesh.is_anchored() {
-            return Anchor::Keep;
+            return Ok(Anchor::Keep);
         }
-        let mut kappas = mesh.corner_tags().to_vec();
+        let mut kappas = memory::copied(mesh.corner_tags())?;
         if self.boundary == Boundary::EdgeAndCorner {
-            kappas.extend(mesh.single_face_vertices());
+            memory::extend(&mut kappas, mesh.single_face_vertices())?;
             kappas.sort_unstable();
             kappas.dedup();
         }
-        Anchor::Lay { kappas }
+        Ok(Anchor::Lay { kappas })
     }
 
     /// True if a step of this scheme leaves the mesh anchored.
