@@ -11,7 +11,7 @@ PROFILE ?= release
 LIB = out/lib/$(PROFILE)
 export PREFIX DESTDIR LIBDIR INCLUDEDIR STRIP_DEBUG
 
-.PHONY: demo test lint deep fuzz bench lib install uninstall tools test-tools clean
+.PHONY: demo test lint deep fuzz bench abi-record lib install uninstall tools test-tools clean
 
 # Refines the cow and the founding paper's torus into out/.
 demo: tools
@@ -55,6 +55,10 @@ fuzz:
 # Speed; results with date and machine are kept in benches/README.md.
 bench: tools
 	$(CARGO) bench --locked
+
+# Records the C interface after a change that docs/abi.md allows.
+abi-record: test-tools
+	CARVEL_RECORD_ABI=1 $(CARGO) test --locked -p carvel-capi-tests --test abi recorded
 
 # The C library, shared and static. `sudo make install` after it runs no cargo.
 lib: $(LIB)/facts

@@ -3,7 +3,9 @@
 //!
 //! A missing tool is a failure that says how to get it, never a skipped test.
 
+pub mod agreement;
 pub mod compiler;
+pub mod header;
 pub mod library;
 pub mod program;
 pub mod sources;
