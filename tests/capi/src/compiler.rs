@@ -7,7 +7,7 @@ use std::sync::OnceLock;
 
 use crate::library::{Library, native_libraries};
 use crate::program::{self, Limit};
-use crate::{c_directory, root};
+use crate::{c_directory, root, work_directory};
 
 /// What every source is held to.
 const WARNINGS: [&str; 6] =
@@ -55,7 +55,7 @@ impl Compiler {
         // build script it must be told what Cargo would tell it.
         let mut build = cc::Build::new();
         build.target(host()).host(host()).opt_level(0).debug(true);
-        build.out_dir(root()).cargo_metadata(false).warnings(false).compiler(self.name);
+        build.out_dir(work_directory("cc")).cargo_metadata(false).warnings(false).compiler(self.name);
         let mut command = build.get_compiler().to_command();
         let language = if self.standard.starts_with("c++") { "c++" } else { "c" };
         command.args(["-x", language]).arg(format!("-std={}", self.standard));
