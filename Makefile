@@ -3,7 +3,7 @@
 
 CARGO ?= cargo
 FUZZ_SECONDS ?= 60
-FUZZ_TARGETS = read_obj read_off read_ply read_stl build_mesh
+FUZZ_TARGETS = read_obj read_off read_ply read_stl build_mesh capi
 
 # Where `make install` puts things; packaging/install.sh lists all variables.
 PREFIX ?= /usr/local

@@ -2,6 +2,7 @@
 # build.sh OUT PROFILE: builds both libraries into OUT and, last, OUT/facts, which is
 # all that installing must know, so that `make install` runs no cargo.
 set -eu
+export LC_ALL=C
 cd "$(dirname "$0")/.."
 out=$1
 profile=$2
@@ -9,11 +10,11 @@ cargo=${CARGO:-cargo}
 mkdir -p "$out"
 rm -f "$out/facts"
 
-# Without the rlib among the crate types rustc can optimise across crates: a quarter of
-# the size. A target folder of its own, because cargo gives libcarvel.so no hash and any
-# other build of the package would write over it.
+# Without the rlib among the crate types rustc does the link-time optimisation that the
+# profile asks for. A target folder of its own, because cargo gives libcarvel.so no hash
+# and any other build of the package would write over it.
 "$cargo" rustc --locked --lib --profile "$profile" --crate-type cdylib,staticlib \
-    --no-default-features --features capi --target-dir "${CARGO_TARGET_DIR:-target}/capi" \
+    --no-default-features --features capi --target-dir "${CARGO_TARGET_DIR:-target}/packaged" \
     --message-format json-render-diagnostics -- --print native-static-libs \
     >"$out/messages" 2>"$out/log" || { cat "$out/log" >&2; exit 1; }
 

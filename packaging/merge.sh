@@ -3,20 +3,26 @@
 # which only symbols that begin with PREFIX are global. Rust's own has thousands, the
 # standard library's among them, which would collide with those of another Rust library.
 set -eu
+export LC_ALL=C
 in=$1
 out=$2
 prefix=$3
 ld=${LD:-ld}
 objcopy=${OBJCOPY:-objcopy}
-nm=${NM:-nm}
+readelf=${READELF:-readelf}
 ar=${AR:-ar}
 
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
-# nm says of the members that have no symbols that they have none.
-"$nm" -g --defined-only "$in" 2>/dev/null | sed -n "s/^[0-9a-f]* [A-Z] \($prefix[A-Za-z0-9_]*\)\$/\1/p" |
-    sort -u >"$work/symbols"
+# Read from the ELF tables: nm may have a plug-in that reads bitcode beside them instead.
+# BIND is GLOBAL or WEAK; WHERE is UND for what is undefined.
+names() { # BIND WHERE FILE
+    "$readelf" -Ws "$3" | awk -v bind="$1" -v undefined="$2" \
+        '$5 == bind && ($7 == "UND") == (undefined == "UND") { print $8 }' | sort -u
+}
+
+names GLOBAL here "$in" | sed -n "/^$prefix[A-Za-z0-9_]*\$/p" >"$work/symbols"
 if [ ! -s "$work/symbols" ]; then
     echo "$in defines no symbol that begins with $prefix" >&2
     exit 1
@@ -40,13 +46,11 @@ sed 's/^/-u /' "$work/symbols" >"$work/roots"
 rm -f "$out"
 "$ar" rcsD "$out" "$work/${prefix%_}.o"
 
-undefined() { # BINDING FILE
-    "$nm" -g --undefined-only "$2" 2>/dev/null | sed -n "s/^ *$1 //p" | sort -u
-}
-undefined w "$in" >"$work/weak"
-undefined U "$in" | comm -23 "$work/weak" - >"$work/only-weak"
-undefined U "$out" | comm -12 "$work/only-weak" - >"$work/strengthened"
-groups=$("${READELF:-readelf}" -WS "$out" | grep -c ' GROUP ' || true)
+# Weak in the archive and nowhere strong, but strong now.
+names WEAK UND "$in" >"$work/weak"
+names GLOBAL UND "$in" | comm -23 "$work/weak" - >"$work/only-weak"
+names GLOBAL UND "$out" | comm -12 "$work/only-weak" - >"$work/strengthened"
+groups=$("$readelf" -WS "$out" | grep -c ' GROUP ' || true)
 if [ "$groups" != 0 ] || [ -s "$work/strengthened" ]; then
     rm -f "$out"
     echo "$ld kept $groups section groups, GNU ld 2.29 or newer keeps none;" \

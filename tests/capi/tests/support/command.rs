@@ -22,8 +22,7 @@ pub fn output(command: &mut Command) -> Output {
     match command.output() {
         Ok(output) => output,
         Err(error) if error.kind() == ErrorKind::NotFound => panic!(
-            "{} is not installed (or its folder is missing); `make test-tools` installs what \
-             these tests need",
+            "{} is not installed; `make test-tools` installs what these tests need",
             command.get_program().display()
         ),
         Err(error) => panic!("{command:?}: {error}"),
