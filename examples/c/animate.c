@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <time.h>
 
-enum { SIDE = 33, FRAMES = 24, LEVEL = 3 };
+enum { SIDE = 33, FRAMES = 24, LEVEL = 2 };
 
 static uint32_t faces[4 * (SIDE - 1) * (SIDE - 1)];
 static double control[3 * SIDE * SIDE];

@@ -16,7 +16,7 @@
 
 constexpr int side = 33;
 constexpr int frames = 24;
-constexpr std::uint32_t level = 3;
+constexpr std::uint32_t level = 2;
 
 /* A sheet of quads with side x side points. */
 static std::vector<std::uint32_t> make_faces()
