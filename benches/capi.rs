@@ -5,7 +5,13 @@
 //! pairs, whose median ratio is what `benches/README.md` quotes, for two runs of
 //! one program on a shared machine differ by more than the border costs.
 
-use carvel::capi::*;
+use carvel::capi::{
+    CARVEL_SCHEME_THREE_POINT, CARVEL_STATUS_OK, carvel_const_values_f32, carvel_indices,
+    carvel_mesh, carvel_mesh_create, carvel_mesh_desc, carvel_mesh_destroy,
+    carvel_refine_input_f32, carvel_refine_output_f32, carvel_refiner, carvel_refiner_create,
+    carvel_refiner_destroy, carvel_refiner_refine_f32, carvel_scheme, carvel_scheme_create,
+    carvel_scheme_desc, carvel_scheme_destroy, carvel_values_f32,
+};
 use carvel::{Context, Fraction, Mesh, Output, Prediction, Refiner, Scheme, Task};
 use criterion::{Criterion, Throughput, criterion_group, criterion_main};
 use std::hint::black_box;
@@ -108,7 +114,7 @@ impl<'t> Hosts<'t> {
         }
     }
 
-    fn from_rust(&mut self) {
+    fn call_from_rust(&mut self) {
         let task = Task::new(&self.mesh, &self.scheme, self.levels, &self.torus.positions);
         let output = Output {
             face_sizes: None,
@@ -120,7 +126,7 @@ impl<'t> Hosts<'t> {
         self.refiner.refine_into(&self.context, &task, output).expect("it refines");
     }
 
-    fn from_c(&mut self) {
+    fn call_from_c(&mut self) {
         let (data, count) = (self.torus.positions.as_ptr(), self.torus.vertices);
         let input = carvel_refine_input_f32 {
             levels: self.levels,
@@ -144,11 +150,11 @@ impl<'t> Hosts<'t> {
 
     /// Both hosts give the same bytes; compared before anything is timed.
     fn check(&mut self) {
-        self.from_rust();
+        self.call_from_rust();
         let expected = (self.faces.clone(), self.points.clone());
         self.faces.fill(7);
         self.points.fill(7.0);
-        self.from_c();
+        self.call_from_c();
         assert!((&self.faces, &self.points) == (&expected.0, &expected.1));
     }
 
@@ -162,9 +168,9 @@ impl<'t> Hosts<'t> {
                 for host in [i % 2, (i + 1) % 2] {
                     let begun = Instant::now();
                     if host == 0 {
-                        self.from_rust()
+                        self.call_from_rust();
                     } else {
-                        self.from_c()
+                        self.call_from_c();
                     }
                     times[host] = begun.elapsed();
                 }
@@ -196,10 +202,10 @@ fn calls(criterion: &mut Criterion) {
         let mut group = criterion.benchmark_group(format!("three-point/{faces} faces"));
         group.throughput(Throughput::Elements(faces)).sample_size(20);
         group.bench_function("from Rust", |bencher| {
-            bencher.iter(|| hosts.from_rust());
+            bencher.iter(|| hosts.call_from_rust());
         });
         group.bench_function("from C", |bencher| {
-            bencher.iter(|| hosts.from_c());
+            bencher.iter(|| hosts.call_from_c());
         });
         group.finish();
         println!("{faces} faces: from C in {:.3} of the time from Rust\n", hosts.ratio());
