@@ -202,7 +202,9 @@ fn golden_cases_are_reproduced() {
     assert_eq!(names(&skipped), ["prism_primal_cubic_2"]);
     assert!(dual.len() >= 17, "golden cases are missing: {} found", dual.len());
     let mut list = String::new();
-    dual.iter().for_each(|case| write_case(&mut list, case));
+    for case in &dual {
+        write_case(&mut list, case);
+    }
     let path = work_directory("golden").join("cases.txt");
     std::fs::write(&path, list).expect("a place for the cases");
     for output in run_with_both("golden", &[&path]) {
