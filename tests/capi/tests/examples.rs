@@ -143,13 +143,17 @@ fn check_openmesh(carvel: &Installed, program: &Path) {
 
 fn check_by_hand(language: &str, names: &[&str]) {
     let carvel = Installed::new();
-    names.iter().for_each(|name| check(&carvel, &build_as_told(&carvel, language, name)));
+    for name in names {
+        check(&carvel, &build_as_told(&carvel, language, name));
+    }
 }
 
 fn check_with_cmake(language: &str, names: &[&str]) {
     let carvel = Installed::new();
     let build = build_with_cmake(&carvel, language);
-    names.iter().for_each(|name| check(&carvel, &build.join(name)));
+    for name in names {
+        check(&carvel, &build.join(name));
+    }
 }
 
 #[test]
