@@ -59,7 +59,7 @@ fn every_standard_takes_it() {
         [("g++", "c++20"), ("g++", "c++2b"), ("clang++", "c++17"), ("clang++", "c++2b")]
     {
         let mut command = compiler(name, standard, &[]).command();
-        command.arg("-fsyntax-only").args(["errors", "queries", "progress"].map(source));
+        command.arg("-fsyntax-only").args(["errors", "queries"].map(source));
         program::run(&mut command, Limit::PROGRAM);
     }
 }
@@ -97,8 +97,6 @@ fn both_styles_link_together() {
     run("no_exceptions", &mut Command::new(program));
 }
 
-/// Both object files' `main` cannot be called by one program; this one's are
-/// called by the sanitizers' programs instead.
 #[test]
 fn sanitizers_find_nothing() {
     let flags = ["-fsanitize=address,undefined", "-fno-sanitize-recover=all"];
