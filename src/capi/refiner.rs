@@ -206,6 +206,10 @@ impl<'a, T: Precision> Job<'a, T> {
         let inputs = unsafe { input.check(mesh)? };
         let plan = Prediction::new(mesh, scheme, input.levels)?;
         plan.check_index_type()?;
+        // What no buffer can change comes before the buffers, as the header says.
+        let width: usize = inputs.iter().map(|records| records.width).sum();
+        let sources = !output.face_sources.data.is_null();
+        context.check_memory(plan.refiner_bytes(width as u64, T::BYTES, sources))?;
         // SAFETY: the caller's contract.
         let outputs = unsafe { output.check(plan.last().vertices, &inputs)? };
         let faces = Faces::of(output, &plan);

@@ -1,0 +1,159 @@
+/* Everything else of carvel.h, reached through C++. */
+#include "check.hpp"
+
+#include <cstring>
+
+static const Pyramid pyramid;
+
+static void versions_agree()
+{
+    CHECK(std::strcmp(carvel::version(), CARVEL_VERSION_STRING) == 0);
+}
+
+static void schemes_take_every_parameter()
+{
+    CHECK(carvel::Scheme::create().passes().empty());
+    const carvel::Fraction w = {1, 32};
+    carvel::SchemeDesc desc = {CARVEL_SCHEME_THREE_POINT};
+    desc.w = w;
+    const std::vector<carvel::Fraction> half = carvel::Scheme::create(desc).passes();
+    CHECK(half.size() == 1 && half[0].numerator == 1 && half[0].denominator == 2);
+    desc = {CARVEL_SCHEME_B_SPLINE};
+    desc.degree = 8;
+    CHECK(carvel::Scheme::create(desc).passes().size() == 3);
+    const carvel::Fraction passes[] = {{1, 2}, {2, 8}};
+    desc = {CARVEL_SCHEME_AVERAGING, CARVEL_CORNER_RULE_AVERAGE, CARVEL_BOUNDARY_NONE};
+    desc.passes = passes;
+    const std::vector<carvel::Fraction> given = carvel::Scheme::create(desc).passes();
+    CHECK(given.size() == 2 && given[1].numerator == 1 && given[1].denominator == 4);
+}
+
+static void meshes_tell_what_they_are()
+{
+    const carvel::Mesh mesh = carvel::Mesh::create(pyramid.faces());
+    const carvel::Counts counts = mesh.counts();
+    CHECK(counts.vertices == 5 && counts.faces == 5 && counts.corners == 16);
+    CHECK(counts.edges == 8 && counts.boundary_edges == 0 && counts.irregular_faces == 4);
+    const carvel::Survey survey = mesh.survey();
+    CHECK(survey.components == 1 && survey.euler_characteristic == 2 && survey.bytes > 0);
+    const auto sizes = mesh.histogram(CARVEL_HISTOGRAM_FACE_SIZES);
+    CHECK(sizes.size() == 2 && sizes[0].value == 3 && sizes[0].count == 4);
+    const auto valences = mesh.histogram(CARVEL_HISTOGRAM_INTERIOR_VALENCES);
+    CHECK(valences.size() == 2 && valences[1].value == 4 && valences[1].count == 1);
+    CHECK(mesh.histogram(CARVEL_HISTOGRAM_BOUNDARY_VALENCES).empty());
+    mesh.validate();
+}
+
+static void meshes_give_their_arrays()
+{
+    const carvel::Mesh mesh = carvel::Mesh::create(pyramid.faces());
+    const Indices sizes = mesh.face_sizes();
+    const Indices offsets = mesh.face_offsets();
+    const Indices vertices = mesh.face_vertices();
+    const Indices sources = mesh.face_sources();
+    const Indices edges = mesh.edges();
+    const Indices corner_edges = mesh.corner_edges();
+    const Indices twins = mesh.corner_twins();
+    CHECK((sizes == Indices{3, 3, 3, 3, 4}) && (offsets == Indices{0, 3, 6, 9, 12, 16}));
+    CHECK((sources == Indices{1, 2, 3, 4, 0}) && edges.size() == 16);
+    CHECK(vertices.size() == 16 && corner_edges.size() == 16 && twins.size() == 16);
+    for (std::size_t i = 0; i < 16; ++i) {
+        CHECK(twins[twins[i]] == i && corner_edges[twins[i]] == corner_edges[i]);
+        const std::size_t e = 2 * corner_edges[i];
+        CHECK(edges[e] == vertices[i] || edges[e + 1] == vertices[i]);
+    }
+    CHECK((mesh.valences() == Indices{3, 3, 3, 3, 4}));
+    CHECK(mesh.boundary_flags() == std::vector<std::uint8_t>(5, 0));
+    CHECK((mesh.vertex_sources() == Indices{0, 1, 2, 3, 4}) && mesh.corner_tags().empty());
+}
+
+static void options_reach_the_mesh()
+{
+    const std::uint32_t strip[] = {0, 1, 4, 3, 1, 2, 5, 4};
+    const std::uint32_t tags[] = {1};
+    carvel::MeshOptions options;
+    options.corner_tags = tags;
+    const carvel::Mesh tagged = carvel::Mesh::create(carvel::Faces::of_size(6, 4, strip), options);
+    CHECK(tagged.corner_tags() == Indices{1} && tagged.counts().boundary_edges == 6);
+    CHECK(tagged.boundary_flags() == std::vector<std::uint8_t>(6, 1));
+
+    const std::uint32_t book[] = {0, 1, 2, 1, 0, 3, 0, 1, 4};
+    options = {};
+    options.non_manifold = CARVEL_NON_MANIFOLD_CUT;
+    const carvel::Mesh cut = carvel::Mesh::create(carvel::Faces::of_size(5, 3, book), options);
+    CHECK(cut.counts().vertices > 5 && cut.vertex_sources().size() == cut.counts().vertices);
+
+    const carvel::Scheme scheme = carvel::Scheme::create();
+    const carvel::Mesh plain = carvel::Mesh::create(carvel::Faces::of_size(6, 4, strip));
+    const std::vector<float> points = {0, 0, 0, 1, 0, 0, 2, 0, 0, 0, 1, 0, 1, 1, 0, 2, 1, 0};
+    const carvel::Refined<float> once = carvel::refine(plain, scheme, 1, points);
+    CHECK(once.anchored);
+    options = {};
+    options.anchored = once.anchored;
+    const carvel::Mesh anchored = carvel::Mesh::create(
+        {once.vertex_count(), once.face_sizes, once.face_vertices}, options);
+    CHECK(anchored.survey().anchored == 1);
+    CHECK(carvel::refine(anchored, scheme, 1, once.positions).face_count() ==
+          carvel::predict_counts(plain, scheme, 2).faces);
+}
+
+static void predictions_hold()
+{
+    const carvel::Mesh mesh = carvel::Mesh::create(pyramid.faces());
+    const carvel::Scheme scheme = carvel::Scheme::create();
+    const carvel::Counts counts = carvel::predict_counts(mesh, scheme, 3);
+    const carvel::Hierarchy hierarchy = carvel::Hierarchy::create(mesh, scheme, 3);
+    CHECK(hierarchy.last_level() == 3 && hierarchy.counts(3).corners == counts.corners);
+    CHECK(hierarchy.mesh(3).counts().edges == counts.edges && counts.level == 3);
+    const carvel::Bytes bytes = carvel::predict_bytes(mesh, scheme, 3, 3, sizeof(float));
+    CHECK(bytes.output == 4 * (counts.faces + counts.corners + 3 * counts.vertices));
+    CHECK(bytes.topology > 0 && bytes.scratch > 0);
+    CHECK(carvel::predict_bytes(mesh, scheme, 3, 3, sizeof(double)).output > bytes.output);
+}
+
+/* Values refined by hand, with the rows that the library tells. */
+static void lineage_and_rows_are_told()
+{
+    const carvel::Mesh mesh = carvel::Mesh::create(pyramid.faces());
+    const carvel::Scheme scheme = carvel::Scheme::create({CARVEL_SCHEME_THREE_POINT});
+    const carvel::Hierarchy hierarchy = carvel::Hierarchy::create(mesh, scheme, 1);
+    const carvel::Counts counts = hierarchy.counts(1);
+    const auto faces = hierarchy.face_origins(1);
+    CHECK(faces.size() == counts.faces && hierarchy.vertex_origins(1).size() == counts.vertices);
+    std::uint64_t kinds[7] = {};
+    for (const carvel::Origin &origin : faces)
+        ++kinds[origin.kind];
+    CHECK(kinds[CARVEL_ORIGIN_FACE] == 5 && kinds[CARVEL_ORIGIN_EDGE] == 8);
+    CHECK(kinds[CARVEL_ORIGIN_VERTEX] == 5);
+    CHECK(hierarchy.vertex_origins(1)[0].kind == CARVEL_ORIGIN_CORNER);
+
+    std::vector<double> values = pyramid.points;
+    for (std::uint32_t stage = 0; stage < 2; ++stage) {
+        const carvel::Rows rows = hierarchy.rows(1, stage);
+        std::vector<double> next(3 * counts.vertices);
+        CHECK(rows.offsets.size() == counts.vertices + 1);
+        CHECK(rows.offsets.back() == rows.indices.size());
+        for (std::size_t i = 0; i < counts.vertices; ++i)
+            for (std::size_t j = rows.offsets[i]; j < rows.offsets[i + 1]; ++j)
+                for (std::size_t k = 0; k < 3; ++k)
+                    next[3 * i + k] += rows.weights[j] * values[3 * rows.indices[j] + k];
+        values = next;
+    }
+    const std::vector<double> refined = hierarchy.refine(1, pyramid.points);
+    for (std::size_t i = 0; i < refined.size(); ++i)
+        CHECK(refined[i] - values[i] < 1e-12 && values[i] - refined[i] < 1e-12);
+    const auto missing = hierarchy.try_rows(1, 2);
+    CHECK(!missing && missing.error().status() == CARVEL_STATUS_PARAMETER_OUT_OF_RANGE);
+}
+
+int main()
+{
+    versions_agree();
+    schemes_take_every_parameter();
+    meshes_tell_what_they_are();
+    meshes_give_their_arrays();
+    options_reach_the_mesh();
+    predictions_hold();
+    lineage_and_rows_are_told();
+    std::puts("queries: ok");
+}
