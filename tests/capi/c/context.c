@@ -109,7 +109,7 @@ static void check_progress(uint32_t threads)
     watch seen;
     carvel_context *context;
     carvel_hierarchy *hierarchy;
-    setup_take(&it, poly_grid(9, 7), 3);
+    setup_take(&it, poly_grid(5, 4), 3);
     watch_begin(&seen, 0);
     context = watched(&seen, threads);
     CHECK_OK(refine(&it, context));
@@ -132,7 +132,7 @@ static void check_callback_stops(uint32_t threads)
     unsigned long stop, reports;
     carvel_context *context;
     carvel_hierarchy *hierarchy;
-    setup_take(&it, poly_grid(9, 7), 3);
+    setup_take(&it, poly_grid(5, 4), 3);
     watch_begin(&seen, 0);
     context = watched(&seen, threads);
     CHECK_OK(refine(&it, context));
@@ -175,7 +175,7 @@ static void check_flag(uint32_t threads)
 {
     setup it;
     carvel_context *context = context_of(threads);
-    setup_take(&it, poly_grid(9, 7), 3);
+    setup_take(&it, poly_grid(5, 4), 3);
     CHECK_UINT(0, carvel_context_is_cancelled(context));
     carvel_context_cancel(context);
     CHECK_UINT(1, carvel_context_is_cancelled(context));
@@ -226,7 +226,7 @@ static void check_stopped_from_elsewhere(uint32_t threads)
     stop other;
     pthread_t thread;
     carvel_status status;
-    setup_take(&it, poly_grid(9, 7), 3);
+    setup_take(&it, poly_grid(5, 4), 3);
     pthread_mutex_init(&other.lock, NULL);
     pthread_cond_init(&other.changed, NULL);
     other.begun = 0;

@@ -38,6 +38,20 @@ fn hostile_meshes_are_refused() {
 }
 
 #[test]
+fn every_wrong_call_is_refused() {
+    run_with_both("misuse", &[]);
+}
+
+/// Unoptimised, a mesh of 40 k faces takes minutes; a quarter of them will do.
+#[test]
+fn running_out_of_memory_is_answered() {
+    let side = Path::new(if cfg!(debug_assertions) { "100" } else { "200" });
+    for output in run_with("allocation", &[Linkage::Shared], &[side]) {
+        assert!(output.stderr.contains("create hierarchy: "), "{}", output.stderr);
+    }
+}
+
+#[test]
 fn values_of_any_layout_are_refined() {
     run_with_both("values", &[]);
 }
