@@ -46,6 +46,10 @@ pub fn run(command: &mut Command, limit: Limit) -> Output {
 /// If it cannot be started or does not end in time.
 #[track_caller]
 pub fn attempt(command: &mut Command, limit: Limit) -> Output {
+    // Cargo's would come before the place that a program was linked to look in.
+    if command.get_envs().all(|(name, _)| name != "LD_LIBRARY_PATH") {
+        command.env_remove("LD_LIBRARY_PATH");
+    }
     command.stdin(Stdio::null()).stdout(Stdio::piped()).stderr(Stdio::piped());
     let mut child = command.spawn().unwrap_or_else(|e| panic!("{}", not_started(command, &e)));
     let stdout = drain(child.stdout.take().expect("a pipe"));
