@@ -33,6 +33,7 @@ lint: tools
 # Minutes of work: more random meshes, a large mesh, fuzzing.
 deep: tools
 	PROPTEST_CASES=512 $(CARGO) test --release --locked
+	tests/capi/tsan.sh
 	$(CARGO) build --release --locked
 	mkdir -p out/deep
 	target/release/carvel subdivide assets/spot/spot_control_mesh.obj \

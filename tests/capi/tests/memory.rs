@@ -45,7 +45,7 @@ fn hostile_meshes_are_clean() {
 
 #[test]
 fn values_are_clean() {
-    memcheck("values", &["3"]);
+    memcheck("values", &["2"]);
 }
 
 #[test]

@@ -45,7 +45,7 @@ fn every_wrong_call_is_refused() {
 /// Unoptimised, a mesh of 40 k faces takes minutes; a quarter of them will do.
 #[test]
 fn running_out_of_memory_is_answered() {
-    let side = Path::new(if cfg!(debug_assertions) { "100" } else { "200" });
+    let side = Path::new(if cfg!(debug_assertions) { "80" } else { "200" });
     for output in run_with("allocation", &[Linkage::Shared], &[side]) {
         assert!(output.stderr.contains("create hierarchy: "), "{}", output.stderr);
     }
