@@ -614,7 +614,7 @@ typedef struct carvel_survey {
 CARVEL_API carvel_status carvel_survey_init(carvel_survey *survey, uint32_t struct_size);
 
 /* Looks at the whole mesh once, O(corners); survey->struct_size must be set.
- * Errors: NULL_POINTER, MISALIGNED, STRUCT_SIZE. */
+ * Errors: NULL_POINTER, MISALIGNED, STRUCT_SIZE, OUT_OF_RESOURCES. */
 CARVEL_API carvel_status carvel_mesh_survey(const carvel_mesh *mesh, carvel_survey *survey,
                                             carvel_error *error);
 
@@ -640,7 +640,7 @@ typedef struct carvel_histogram_entry {
  * count: receives the number of entries, also if the buffer is too small: a
  * first call with capacity 0 asks. May be NULL.
  * Errors: NULL_POINTER, MISALIGNED, PARAMETER_OUT_OF_RANGE, BUFFER_TOO_SMALL
- * (not for capacity 0). */
+ * (not for capacity 0), OUT_OF_RESOURCES. */
 CARVEL_API carvel_status carvel_mesh_histogram(const carvel_mesh *mesh, int32_t which,
                                                carvel_histogram_entry *out, uint64_t capacity,
                                                uint64_t *count, carvel_error *error);
@@ -698,7 +698,8 @@ CARVEL_API carvel_status carvel_mesh_corner_tags(const carvel_mesh *mesh, uint32
                                                  uint64_t capacity, carvel_error *error);
 
 /* Checks every stored invariant; O(corners).
- * Errors: NULL_POINTER, MISALIGNED; BROKEN_INVARIANT is a defect of the library. */
+ * Errors: NULL_POINTER, MISALIGNED, OUT_OF_RESOURCES; BROKEN_INVARIANT is a defect
+ * of the library. */
 CARVEL_API carvel_status carvel_mesh_validate(const carvel_mesh *mesh, carvel_error *error);
 
 /* ==========================================================================
@@ -971,7 +972,8 @@ CARVEL_API carvel_status carvel_hierarchy_refine_f64(const carvel_hierarchy *hie
 enum carvel_origin_kind {
     /* A face of the level before. */
     CARVEL_ORIGIN_FACE = 1,
-    /* An edge, by the first corner that it leads away from. */
+    /* An edge, by a corner that it leads away from, either one inside. Its number
+     * is the same from both in carvel_mesh_corner_edges. */
     CARVEL_ORIGIN_EDGE = 2,
     /* A vertex: for a refined vertex, a corner of the boundary or an isolated
      * vertex. */

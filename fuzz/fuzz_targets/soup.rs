@@ -1,4 +1,6 @@
 //! A polygon soup, build options and a scheme from any bytes.
+// Each target takes what it needs.
+#![allow(dead_code)]
 
 use carvel::mesh::{BuildOptions, NonManifold};
 use carvel::{Boundary, CornerRule, ErrorKind, Fraction, Scheme};

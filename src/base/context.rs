@@ -10,6 +10,7 @@ use std::fmt;
 use std::ops::Range;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::thread::JoinHandle;
 
 /// Chunks per thread: enough to even out uneven work, few enough to be free.
 const CHUNKS_PER_THREAD: usize = 8;
@@ -39,9 +40,44 @@ impl CancelFlag {
     }
 }
 
+/// Threads that are gone when the value is: rayon itself only asks them to end,
+/// and a plug-in may be unloaded from under one that has not.
+struct Pool {
+    /// `None` only while the value is dropped.
+    pool: Option<rayon::ThreadPool>,
+    threads: Vec<JoinHandle<()>>,
+}
+
+impl Pool {
+    fn start(n: usize) -> Result<Self> {
+        let mut threads = Vec::new();
+        let started = rayon::ThreadPoolBuilder::new()
+            .num_threads(n)
+            .spawn_handler(|worker| {
+                let name = format!("carvel-{}", worker.index());
+                threads.push(std::thread::Builder::new().name(name).spawn(|| worker.run())?);
+                Ok(())
+            })
+            .build();
+        let refused = started.as_ref().err().map(ToString::to_string);
+        let pool = Self { pool: started.ok(), threads };
+        refused.map_or(Ok(pool), |text| Err(Error::new(ErrorKind::OutOfResources, text)))
+    }
+}
+
+impl Drop for Pool {
+    fn drop(&mut self) {
+        drop(self.pool.take());
+        for thread in self.threads.drain(..) {
+            // One that panicked has ended as well.
+            let _ = thread.join();
+        }
+    }
+}
+
 /// Threads, limits and callbacks for a call. Results never depend on it.
 pub struct Context {
-    pool: Option<rayon::ThreadPool>,
+    pool: Option<Pool>,
     ceiling: Option<u64>,
     progress: Option<Progress>,
     cancel: CancelFlag,
@@ -65,9 +101,13 @@ impl Context {
         ContextBuilder { threads: 1, context: Self::serial() }
     }
 
+    fn pool(&self) -> Option<&rayon::ThreadPool> {
+        self.pool.as_ref().and_then(|pool| pool.pool.as_ref())
+    }
+
     /// The number of threads that work is spread over.
     pub fn threads(&self) -> usize {
-        self.pool.as_ref().map_or(1, rayon::ThreadPool::current_num_threads)
+        self.pool().map_or(1, rayon::ThreadPool::current_num_threads)
     }
 
     /// The flag that stops work in this context.
@@ -139,7 +179,7 @@ impl Context {
         work: impl Fn(I) -> R + Sync + Send,
     ) -> Result<Vec<R>> {
         let guarded = |item| self.check_cancelled().map(|()| work(item));
-        match &self.pool {
+        match self.pool() {
             Some(pool) if items.len() > 1 => {
                 pool.install(|| items.into_par_iter().map(guarded).collect())
             }
@@ -227,12 +267,7 @@ impl ContextBuilder {
             ));
         }
         if n > 1 {
-            let pool = rayon::ThreadPoolBuilder::new()
-                .num_threads(n)
-                .thread_name(|i| format!("carvel-{i}"))
-                .build()
-                .map_err(|e| Error::new(ErrorKind::OutOfResources, e.to_string()))?;
-            self.context.pool = Some(pool);
+            self.context.pool = Some(Pool::start(n)?);
         }
         Ok(self.context)
     }
@@ -241,6 +276,30 @@ impl ContextBuilder {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Counts the threads that have ended, some time after they were told to.
+    struct Leaving(Arc<std::sync::atomic::AtomicUsize>);
+
+    impl Drop for Leaving {
+        fn drop(&mut self) {
+            std::thread::sleep(std::time::Duration::from_millis(20));
+            self.0.fetch_add(1, Ordering::SeqCst);
+        }
+    }
+
+    thread_local! {
+        static LEAVING: std::cell::RefCell<Option<Leaving>> = const { std::cell::RefCell::new(None) };
+    }
+
+    #[test]
+    fn threads_are_gone_with_their_context() {
+        let gone = Arc::default();
+        let context = Context::builder().threads(3).build().unwrap();
+        let mark = |_: rayon::BroadcastContext| LEAVING.set(Some(Leaving(Arc::clone(&gone))));
+        context.pool().unwrap().broadcast(mark);
+        drop(context);
+        assert_eq!(gone.load(Ordering::SeqCst), 3);
+    }
 
     #[test]
     fn a_cancelled_context_stops_and_recovers() {

@@ -18,10 +18,13 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Once;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// The objects lent to a call.
+/// The most objects that any call is given.
+const MOST_LENT: usize = 4;
+
+/// The objects lent to a call, by their poison flags.
 #[derive(Default)]
 pub(super) struct Call<'a> {
-    lent: Vec<&'a AtomicBool>,
+    lent: [Option<&'a AtomicBool>; MOST_LENT],
 }
 
 /// A context: the caller's, or for NULL one that is the calling thread alone.
@@ -53,7 +56,8 @@ impl<'a> Call<'a> {
     {
         // SAFETY: the caller's contract.
         let handle = unsafe { borrow(object)? };
-        self.lent.push(&handle.poisoned);
+        let free = self.lent.iter_mut().find(|slot| slot.is_none());
+        *free.expect("a call is given few objects") = Some(&handle.poisoned);
         Ok(&handle.value)
     }
 
@@ -101,7 +105,7 @@ pub(super) unsafe fn call<'a>(
     }
     let mut call = Call::default();
     let outcome = quietly(|| body(&mut call)).unwrap_or_else(|panic| {
-        for poisoned in &call.lent {
+        for poisoned in call.lent.iter().flatten() {
             poisoned.store(true, Ordering::Relaxed);
         }
         Err(Fault::new(

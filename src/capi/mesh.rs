@@ -219,9 +219,9 @@ versioned! {
 }
 
 impl carvel_survey {
-    fn of(mesh: &Mesh) -> Self {
-        let survey = Survey::of(mesh);
-        Self {
+    fn of(mesh: &Mesh) -> Result<Self> {
+        let survey = Survey::try_of(mesh)?;
+        Ok(Self {
             anchored: i32::from(mesh.is_anchored()),
             components: survey.components as u64,
             boundary_loops: survey.boundary_loops as u64,
@@ -230,7 +230,7 @@ impl carvel_survey {
             corner_tags: mesh.corner_tags().len() as u64,
             bytes: mesh.bytes(),
             ..initial()
-        }
+        })
     }
 }
 
@@ -255,7 +255,7 @@ fn histogram(mesh: &Mesh, which: i32) -> Result<Vec<carvel_histogram_entry>> {
     };
     let entry =
         |(value, count)| carvel_histogram_entry { value: value as u64, count: count as u64 };
-    Ok(pick(Survey::of(mesh)).into_iter().map(entry).collect())
+    Ok(pick(Survey::try_of(mesh)?).into_iter().map(entry).collect())
 }
 
 /// Fills the offsets of faces from their sizes, the total last.
@@ -372,7 +372,7 @@ pub unsafe extern "C" fn carvel_mesh_survey(
         call(error, |call| {
             let mesh = call.object(mesh)?;
             check(survey)?;
-            write(survey, &carvel_survey::of(&mesh.mesh))
+            write(survey, &carvel_survey::of(&mesh.mesh)?)
         })
     }
 }

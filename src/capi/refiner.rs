@@ -162,10 +162,13 @@ impl Faces {
         }
     }
 
-    /// The arrays that are wanted.
-    fn spans(&self) -> Result<Vec<Span>> {
+    /// Checks the arrays that are wanted, and adds what will be written.
+    fn add_spans(&self, spans: &mut Vec<Span>) -> Result<()> {
         let all = [self.sizes, self.offsets, self.vertices, self.sources];
-        all.iter().filter(|target| target.is_given()).map(Target::span).collect()
+        all.iter().filter(|target| target.is_given()).try_for_each(|target| {
+            spans.push(target.span()?);
+            Ok(())
+        })
     }
 }
 
@@ -220,7 +223,8 @@ impl<'a, T: Precision> Job<'a, T> {
     }
 
     fn check_overlap(&self) -> Result<()> {
-        let mut spans = self.faces.spans()?;
+        let mut spans = Vec::with_capacity(4 + self.inputs.len() + self.outputs.len());
+        self.faces.add_spans(&mut spans)?;
         spans.extend(self.inputs.iter().map(Records::read_span));
         spans.extend(self.outputs.iter().map(Records::write_span));
         check_overlap(&spans)

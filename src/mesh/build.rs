@@ -44,7 +44,7 @@ pub struct Built {
 ///
 /// # Errors
 /// [`Defects::Soup`] with every defect found; [`Defects::Call`] for sizes that
-/// do not match or do not fit 32 bits, unusable tags, or a cancel.
+/// do not match or do not fit 32 bits, too little memory, unusable tags, or a cancel.
 pub fn build(
     context: &Context,
     vertices: usize,
@@ -52,7 +52,7 @@ pub fn build(
     indices: &[u32],
     options: &BuildOptions,
 ) -> Result<Built, Defects> {
-    let offsets = check_sizes(vertices, sizes, indices)?;
+    let offsets = check_sizes(context, vertices, sizes, indices)?;
     let mut defects = face_defects(context, vertices, &offsets, indices)?;
     let soup = Soup::arrange(sizes, &offsets, indices, &defects)?;
     let Pairing { twin, bad } = pair(context, vertices, &soup.vert, |c| soup.layout.next(c))?;
@@ -80,8 +80,20 @@ pub fn build(
     Ok(Built { mesh, vertex_source })
 }
 
-/// Checks that everything fits the index type; returns the face offsets.
-fn check_sizes(vertices: usize, sizes: &[u32], indices: &[u32]) -> Result<Vec<u32>> {
+/// About the bytes that building takes at its peak, measured on quads in order and
+/// in none: sides being paired, the arrays of the mesh, orders of faces.
+fn peak_bytes(vertices: usize, faces: usize, corners: usize) -> u64 {
+    20 * corners as u64 + 12 * (faces as u64 + vertices as u64)
+}
+
+/// Checks that everything fits the index type and the memory ceiling; returns the
+/// face offsets.
+fn check_sizes(
+    context: &Context,
+    vertices: usize,
+    sizes: &[u32],
+    indices: &[u32],
+) -> Result<Vec<u32>> {
     const LIMIT: u64 = NONE as u64;
     let corners: u64 = sizes.iter().map(|&size| u64::from(size)).sum();
     if corners != indices.len() as u64 {
@@ -102,6 +114,7 @@ fn check_sizes(vertices: usize, sizes: &[u32], indices: &[u32]) -> Result<Vec<u3
             format!("{} faces do not fit 32-bit indices", sizes.len()),
         ));
     }
+    context.check_memory(peak_bytes(vertices, sizes.len(), indices.len()))?;
     let mut sum = 0;
     let mut offsets = memory::reserved(sizes.len() + 1)?;
     offsets.push(0);

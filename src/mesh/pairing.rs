@@ -54,7 +54,10 @@ pub(super) fn pair(
     let twin = memory::collect((0..vert.len()).map(|_| AtomicU32::new(NONE)))?;
     let bad = context.map((0..buckets).collect(), |bucket| {
         let parts: Vec<&[Side]> = dealt.iter().map(|d| d.bucket(bucket)).collect();
-        let (sides, bounds) = sort_bucket(&parts, (bucket as u32) << BUCKET_BITS)?;
+        let first = bucket << BUCKET_BITS;
+        // Small meshes do not pay for a whole bucket.
+        let len = (vertices - first).min(1 << BUCKET_BITS);
+        let (sides, bounds) = sort_bucket(&parts, first as u32, len)?;
         let mut bad = Vec::new();
         for pair in bounds.windows(2) {
             match_vertex(&sides[pair[0] as usize..pair[1] as usize], vert, &twin, &mut bad)?;
@@ -96,9 +99,10 @@ fn deal(sides: impl Iterator<Item = Side> + Clone, buckets: usize) -> Result<Dea
     Ok(Dealt { sides: dealt, bounds })
 }
 
-/// Sorts one bucket by (low, high, corner); also returns the bounds per `low`.
-fn sort_bucket(parts: &[&[Side]], first: u32) -> Result<(Vec<Side>, Vec<u32>)> {
-    let mut bounds = memory::zeroed((1 << BUCKET_BITS) + 1)?;
+/// Sorts the bucket of `len` vertices from `first` on by (low, high, corner); also
+/// returns the bounds per `low`.
+fn sort_bucket(parts: &[&[Side]], first: u32, len: usize) -> Result<(Vec<Side>, Vec<u32>)> {
+    let mut bounds = memory::zeroed(len + 1)?;
     let sides = || parts.iter().flat_map(|part| part.iter());
     for side in sides() {
         bounds[(side.low - first) as usize + 1] += 1;

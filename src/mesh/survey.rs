@@ -1,6 +1,7 @@
 //! What a mesh is like: components, boundary loops, histograms.
 
 use super::Mesh;
+use crate::base::{Result, memory};
 use std::collections::BTreeMap;
 
 /// Figures about a mesh as a whole.
@@ -25,11 +26,22 @@ pub struct Survey {
 
 impl Survey {
     /// Looks at the whole mesh once.
+    ///
+    /// # Panics
+    /// If there is no memory for a number for each vertex; see [`Self::try_of`].
     pub fn of(mesh: &Mesh) -> Self {
+        Self::try_of(mesh).unwrap_or_else(|error| panic!("{error}"))
+    }
+
+    /// Looks at the whole mesh once, if there is memory for it.
+    ///
+    /// # Errors
+    /// [`crate::ErrorKind::OutOfResources`].
+    pub fn try_of(mesh: &Mesh) -> Result<Self> {
         let isolated = mesh.start.iter().filter(|&&c| c == crate::base::NONE).count();
         let mut survey = Self {
-            components: components(mesh),
-            boundary_loops: boundary_loops(mesh),
+            components: components(mesh)?,
+            boundary_loops: boundary_loops(mesh)?,
             isolated_vertices: isolated,
             euler_characteristic: (mesh.vertices() - isolated) as i64 - mesh.edges() as i64
                 + mesh.faces() as i64,
@@ -49,13 +61,13 @@ impl Survey {
                 n => *survey.interior_valences.entry(n).or_default() += 1,
             }
         }
-        survey
+        Ok(survey)
     }
 }
 
 /// Connected components by union-find over the vertices of each face.
-fn components(mesh: &Mesh) -> usize {
-    let mut parent: Vec<u32> = (0..mesh.start.len() as u32).collect();
+fn components(mesh: &Mesh) -> Result<usize> {
+    let mut parent = memory::collect(0..mesh.start.len() as u32)?;
     let mut joined = 0;
     for corner in 0..mesh.layout.corners() {
         let a = root(&mut parent, mesh.vert[corner as usize]);
@@ -66,7 +78,7 @@ fn components(mesh: &Mesh) -> usize {
         }
     }
     let used = mesh.start.iter().filter(|&&c| c != crate::base::NONE).count();
-    used - joined
+    Ok(used - joined)
 }
 
 /// The root of a vertex, halving the path on the way.
@@ -78,8 +90,8 @@ fn root(parent: &mut [u32], mut v: u32) -> u32 {
     v
 }
 
-fn boundary_loops(mesh: &Mesh) -> usize {
-    let mut seen = vec![false; mesh.rim.len()];
+fn boundary_loops(mesh: &Mesh) -> Result<usize> {
+    let mut seen = memory::filled(false, mesh.rim.len())?;
     let mut loops = 0;
     for i in 0..mesh.rim.len() {
         let mut at = i;
@@ -91,5 +103,5 @@ fn boundary_loops(mesh: &Mesh) -> usize {
             at = mesh.rim.binary_search(&onward).expect("a boundary goes on");
         }
     }
-    loops
+    Ok(loops)
 }

@@ -2,14 +2,15 @@
 
 use super::near::{LEADS, STARTS};
 use super::{Mesh, VertexSet};
-use crate::base::{Error, ErrorKind, NONE, Result};
+use crate::base::{Error, ErrorKind, NONE, Result, memory};
 
 impl Mesh {
     /// Checks every stored invariant: the table in the module's documentation,
     /// and that the topology is an orientable 2-manifold. O(H).
     ///
     /// # Errors
-    /// [`ErrorKind::BrokenInvariant`], which is a defect of this library.
+    /// [`ErrorKind::BrokenInvariant`], which is a defect of this library;
+    /// [`ErrorKind::OutOfResources`].
     pub fn validate(&self) -> Result<()> {
         self.check_layout()?;
         self.check_corners()?;
@@ -23,7 +24,7 @@ impl Mesh {
         ensure(self.layout.is_consistent(), "layout", 0)?;
         ensure(self.vert.len() == corners && self.twin.len() == corners, "array lengths", corners)?;
         let Some(source) = &self.face_source else { return Ok(()) };
-        let mut sorted = source.clone();
+        let mut sorted = memory::copied(source)?;
         sorted.sort_unstable();
         let permutation = sorted.iter().enumerate().all(|(i, &f)| i == f as usize);
         ensure(permutation && source.len() == self.faces(), "face source", 0)
@@ -52,7 +53,7 @@ impl Mesh {
         let mut reached = 0;
         for (v, &start) in self.start.iter().enumerate() {
             ensure(start == NONE || (start as usize) < self.vert.len(), "range of start", v)?;
-            let fan: Vec<u32> = self.fan(v as u32).collect();
+            let fan = memory::collect(self.fan(v as u32))?;
             reached += fan.len();
             ensure(fan.iter().all(|&c| self.vert[c as usize] as usize == v), "fan", v)?;
             let closed = fan.last().is_none_or(|&last| self.ccw(last) == start);

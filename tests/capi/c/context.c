@@ -109,7 +109,7 @@ static void check_progress(uint32_t threads)
     watch seen;
     carvel_context *context;
     carvel_hierarchy *hierarchy;
-    setup_take(&it, poly_grid(9, 7), 3);
+    setup_take(&it, poly_grid(5, 4), 3);
     watch_begin(&seen, 0);
     context = watched(&seen, threads);
     CHECK_OK(refine(&it, context));
@@ -132,7 +132,7 @@ static void check_callback_stops(uint32_t threads)
     unsigned long stop, reports;
     carvel_context *context;
     carvel_hierarchy *hierarchy;
-    setup_take(&it, poly_grid(9, 7), 3);
+    setup_take(&it, poly_grid(5, 4), 3);
     watch_begin(&seen, 0);
     context = watched(&seen, threads);
     CHECK_OK(refine(&it, context));
@@ -175,7 +175,7 @@ static void check_flag(uint32_t threads)
 {
     setup it;
     carvel_context *context = context_of(threads);
-    setup_take(&it, poly_grid(9, 7), 3);
+    setup_take(&it, poly_grid(5, 4), 3);
     CHECK_UINT(0, carvel_context_is_cancelled(context));
     carvel_context_cancel(context);
     CHECK_UINT(1, carvel_context_is_cancelled(context));
@@ -226,7 +226,7 @@ static void check_stopped_from_elsewhere(uint32_t threads)
     stop other;
     pthread_t thread;
     carvel_status status;
-    setup_take(&it, poly_grid(9, 7), 3);
+    setup_take(&it, poly_grid(5, 4), 3);
     pthread_mutex_init(&other.lock, NULL);
     pthread_cond_init(&other.changed, NULL);
     other.begun = 0;
@@ -259,17 +259,16 @@ static carvel_context *limited(uint64_t bytes)
     return context;
 }
 
-/* The refusal comes before the buffers are looked at: these are far too small
- * for level 9, and would be refused for that. */
+/* Refused before work, by a message that names the ceiling. */
 static void check_refused(setup *it, const carvel_context *context, const char *ceiling)
 {
     carvel_hierarchy *hierarchy;
     uint32_t levels = it->input.levels;
     level64 level;
-    carvel_counts counts = predicted(it->mesh, it->scheme, 6);
+    carvel_counts counts = predicted(it->mesh, it->scheme, 7);
     carvel_refiner *fresh = refiner_of();
     level64_take(&level, &counts);
-    it->input.levels = 6;
+    it->input.levels = 7;
     CHECK_STATUS(CARVEL_STATUS_MEMORY_CEILING,
                  carvel_refiner_refine_f64(fresh, context, &it->input, &level.output, failure));
     CHECK(strstr(carvel_error_message(failure), ceiling) != NULL);

@@ -179,9 +179,10 @@ static void check_complete(const step *it, int lays_row)
         CHECK_UINT(1, vertices_from(it, CARVEL_ORIGIN_CORNER, c));
         CHECK_UINT(on_rim, vertices_from(it, CARVEL_ORIGIN_EDGE_START, c));
         CHECK_UINT(on_rim, vertices_from(it, CARVEL_ORIGIN_EDGE_END, c));
-        /* By the first corner that leads away. */
-        CHECK_UINT(twin == UINT32_MAX ? on_rim : c < twin,
-                   faces_from(it, CARVEL_ORIGIN_EDGE, c));
+        /* By either corner that leads away. */
+        CHECK_UINT(twin == UINT32_MAX ? on_rim : 1,
+                   faces_from(it, CARVEL_ORIGIN_EDGE, c) +
+                       (twin == UINT32_MAX ? 0 : faces_from(it, CARVEL_ORIGIN_EDGE, twin)));
     }
     for (f = 0; f < parent->counts.faces; f++)
         CHECK_UINT(1, faces_from(it, CARVEL_ORIGIN_FACE, f));

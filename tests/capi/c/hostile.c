@@ -1,6 +1,6 @@
 /* Every mesh that must be refused, with status and elements, and every defect
  * in the list of entries. The inputs are those of tests/kernel/mesh.rs and
- * tests/kernel/limits.rs. */
+ * tests/kernel/limits.rs. Argument 1: sides of a face that has many. */
 #include "fixture.h"
 
 #include <math.h>
@@ -563,31 +563,30 @@ static void check_level_limit(uint64_t faces)
     poly_free(lone);
 }
 
-/* Two faces of two thousand sides, a hub of five thousand faces. */
-static void check_extreme(void)
+/* A face of very many sides, a hub of very many faces. */
+static void check_extreme(uint32_t many)
 {
-    enum { SIDES = 2000 };
-    uint32_t sizes[1], *indices = TAKE(uint32_t, 3 * SIDES), *threes = TAKE(uint32_t, SIDES), i;
+    uint32_t sizes[1], *indices = TAKE(uint32_t, 3 * many), *threes = TAKE(uint32_t, many), i;
     poly *polygon, *hub;
     carvel_mesh *mesh;
     carvel_scheme *scheme = scheme_of(CARVEL_SCHEME_DOO_SABIN, 0);
     level64 level;
     check_context("extreme");
-    for (i = 0; i < SIDES; i++)
+    for (i = 0; i < many; i++)
         indices[i] = i;
-    sizes[0] = SIDES;
-    polygon = poly_of(SIDES, 1, sizes, indices);
+    sizes[0] = many;
+    polygon = poly_of(many, 1, sizes, indices);
     mesh = poly_mesh(polygon);
     level64_refine(&level, NULL, mesh, scheme, 1, polygon->positions);
     level64_free(&level);
     carvel_mesh_destroy(mesh);
-    for (i = 0; i < SIDES; i++) {
+    for (i = 0; i < many; i++) {
         threes[i] = 3;
         indices[3 * i] = i;
-        indices[3 * i + 1] = (i + 1) % SIDES;
-        indices[3 * i + 2] = SIDES;
+        indices[3 * i + 1] = (i + 1) % many;
+        indices[3 * i + 2] = many;
     }
-    hub = poly_of(SIDES + 1, SIDES, threes, indices);
+    hub = poly_of(many + 1, many, threes, indices);
     mesh = poly_mesh(hub);
     level64_refine(&level, NULL, mesh, scheme, 1, hub->positions);
     level64_free(&level);
@@ -599,7 +598,7 @@ static void check_extreme(void)
     free(threes);
 }
 
-int main(void)
+int main(int count, char **arguments)
 {
     check_begin();
     check_indices();
@@ -624,6 +623,6 @@ int main(void)
     check_levels();
     check_level_limit(0);
     check_level_limit(1);
-    check_extreme();
+    check_extreme((uint32_t)size_argument(count, arguments, 2000));
     return check_end();
 }

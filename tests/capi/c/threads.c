@@ -189,7 +189,7 @@ static void check_shared(uint32_t threads, unsigned long rounds)
 
 int main(int count, char **arguments)
 {
-    unsigned long rounds = size_argument(count, arguments, 30);
+    unsigned long rounds = size_argument(count, arguments, 8);
     check_begin();
     check_context("a serial context");
     check_shared(1, rounds);

@@ -1,5 +1,5 @@
 /* Values of any width and stride, in both precisions; bad values; what a
- * refinement says about its faces; level 0. */
+ * refinement says about its faces; level 0. Argument 1: widths from 1 to which. */
 #include "fixture.h"
 
 #include <float.h>
@@ -171,11 +171,12 @@ static void check_unwanted(void)
     poly_free(cube);
 }
 
-int main(void)
+int main(int count, char **arguments)
 {
+    uint64_t widths = size_argument(count, arguments, WIDTHS);
     check_begin();
-    check_f32();
-    check_f64();
+    check_f32(widths);
+    check_f64(widths);
     check_context("anchored");
     check_anchored_flag(CARVEL_BOUNDARY_EDGE_AND_CORNER, 0, 0);
     check_anchored_flag(CARVEL_BOUNDARY_EDGE_AND_CORNER, 1, 1);

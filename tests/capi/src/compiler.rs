@@ -55,8 +55,8 @@ impl Compiler {
         // build script it must be told what Cargo would tell it.
         let mut build = cc::Build::new();
         build.target(host()).host(host()).opt_level(0).debug(true);
-        build.cargo_metadata(false).warnings(false).compiler(self.name);
-        build.out_dir(work_directory("cc"));
+        build.out_dir(work_directory("probes")).cargo_metadata(false).warnings(false);
+        build.compiler(self.name);
         let mut command = build.get_compiler().to_command();
         let language = if self.standard.starts_with("c++") { "c++" } else { "c" };
         command.args(["-x", language]).arg(format!("-std={}", self.standard));

@@ -37,8 +37,15 @@ pub fn library() -> &'static Library {
 pub fn native_libraries() -> &'static [String] {
     static NATIVE: OnceLock<Vec<String>> = OnceLock::new();
     NATIVE.get_or_init(|| {
-        let args = ["--crate-type=staticlib", "--print=native-static-libs", "-o/dev/null", "-"];
-        let out = program::run(Command::new("rustc").args(args), Limit::BUILD);
+        // An empty crate needs what every crate needs. The output is a file of our
+        // own: rustc replaces what it is told to write, devices included.
+        let directory = target_directory().join("native");
+        std::fs::create_dir_all(&directory).expect("a folder for an empty crate");
+        let source = directory.join("empty.rs");
+        std::fs::write(&source, "").expect("a place for an empty crate");
+        let args = ["--crate-type=staticlib", "--print=native-static-libs", "--out-dir"];
+        let mut command = Command::new("rustc");
+        let out = program::run(command.args(args).arg(&directory).arg(source), Limit::BUILD);
         let line = out.stderr.lines().find_map(|l| l.split("native-static-libs: ").nth(1));
         let line = line.unwrap_or_else(|| panic!("rustc names no libraries:\n{}", out.stderr));
         line.split_whitespace().map(str::to_owned).collect()

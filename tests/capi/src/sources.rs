@@ -12,14 +12,15 @@ use crate::{c_directory, work_directory};
 /// What every program is linked with.
 const SHARED: [&str; 2] = ["check", "fixture"];
 
-/// The programs' names: every source that is not linked with all of them.
+/// The programs' names: every source that is neither linked with all of them nor
+/// for an installed library.
 pub fn programs() -> Vec<String> {
     let entries = std::fs::read_dir(c_directory()).expect("the C programs can be listed");
     let paths = entries.map(|e| e.expect("a directory entry").path());
     let sources = paths.filter(|p| p.extension().is_some_and(|e| e == "c"));
     let stem = |p: PathBuf| p.file_stem().and_then(OsStr::to_str).map(str::to_owned);
     let mut names: Vec<String> = sources.filter_map(stem).collect();
-    names.retain(|n| !SHARED.contains(&n.as_str()));
+    names.retain(|n| !SHARED.contains(&n.as_str()) && !n.starts_with("install_"));
     names.sort();
     names
 }
