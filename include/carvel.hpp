@@ -441,9 +441,10 @@ Values<T> values(const Values<T> &v)
 }
 
 /* `count` records that begin at a pointer; ConstValues<T> and Values<T> take the
- * same arguments. */
-template <class T>
-auto values(T *data, std::size_t count, std::size_t width = 3, std::size_t stride = 0)
+ * same arguments. A C array is a container, below. */
+template <class P, class = std::enable_if_t<std::is_pointer_v<std::decay_t<P>> &&
+                                            !std::is_array_v<std::remove_reference_t<P>>>>
+auto values(P &&data, std::size_t count, std::size_t width = 3, std::size_t stride = 0)
 {
     return detail::view(data, count, width, stride);
 }
@@ -697,8 +698,8 @@ struct ContextDesc {
     Progress progress = {};
 };
 
-/* Owns its threads and its progress function; worth keeping. It cannot be
- * released: its C object calls a function that it owns. */
+/* Owns its threads and its progress function; worth keeping. An empty one is like
+ * nullptr. It cannot be released: its C object calls a function that it owns. */
 class Context : public detail::Handle<carvel_context, detail::destroy> {
 public:
     using Handle::Handle;

@@ -126,6 +126,9 @@ static void views_are_the_c_structs()
     CHECK(carvel::columns(flat).count == 5 && carvel::columns(flat).width == 1);
     const std::vector<std::array<float, 2>> uv(3);
     CHECK(carvel::values(uv).width == 2 && carvel::values(uv).count == 3);
+    float c_array[6] = {};
+    const auto pairs = carvel::values(c_array, 2);
+    CHECK(pairs.data == c_array && pairs.count == 3 && pairs.width == 2);
     const std::vector<double> empty;
     CHECK(carvel::values(empty).count == 0 && carvel::values(pyramid.points, 0).count == 0);
     CHECK(carvel::values(pyramid.points, 4).count == 0);

@@ -1,6 +1,8 @@
 /* Errors, thrown and returned, with every defect and its elements. */
 #include "check.hpp"
 
+#include <sys/resource.h>
+
 #include <cstring>
 #include <limits>
 #include <string>
@@ -118,6 +120,9 @@ static void what_is_too_large_is_refused_first()
     const carvel::Context low = carvel::Context::create({1, 1000, {}});
     CHECK(THROWN(carvel::refine(mesh, scheme, 13, pyramid.points, &low)) ==
           CARVEL_STATUS_MEMORY_CEILING);
+    /* A vector of a thousand million indices was never there; kilobytes. */
+    rusage usage;
+    CHECK(getrusage(RUSAGE_SELF, &usage) == 0 && usage.ru_maxrss < 1000000);
 }
 
 /* Vectors of this layer that the system has no memory for. */

@@ -86,16 +86,23 @@ static void calls_may_nest()
     const carvel::Context inner =
         carvel::Context::create({1, 0, [](double) -> bool { throw Stop{1}; }});
     int caught = 0;
-    const carvel::Context outer = carvel::Context::create({1, 0, [&](double) {
-                                                               const auto result =
-                                                                   carvel::try_refine(
-                                                                       mesh(), scheme(), 1,
-                                                                       pyramid.points, &inner);
-                                                               caught += result ? 0 : 1;
-                                                               return false;
-                                                           }});
+    bool armed = false;
+    const carvel::Context outer = carvel::Context::create(
+        {1, 0, [&](double) {
+             caught += carvel::try_refine(mesh(), scheme(), 1, pyramid.points, &inner) ? 0 : 1;
+             return armed ? throw Stop{3} : false;
+         }});
     CHECK(carvel::refine(mesh(), scheme(), 2, pyramid.points, &outer).face_count() > 0);
     CHECK(caught > 0);
+    /* What it throws after a call of its own still comes out of the outer one. */
+    armed = true;
+    int code = 0;
+    try {
+        carvel::refine(mesh(), scheme(), 2, pyramid.points, &outer);
+    } catch (const Stop &stop) {
+        code = stop.code;
+    }
+    CHECK(code == 3);
 }
 
 /* Two threads share context and mesh; each gets what it threw itself. */
