@@ -147,6 +147,7 @@ impl From<Defects> for Error {
         let first = &list[0];
         let more = match list.len() {
             1 => String::new(),
+            2 => " (1 more defect)".to_owned(),
             n => format!(" ({} more defects)", n - 1),
         };
         Self::new(first.kind(), format!("{first}{more}")).with_elements(first.elements())
