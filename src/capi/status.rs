@@ -1,7 +1,7 @@
 //! Version, status codes, and the failures that turn into them.
 
 use crate::base::{Element, Error, ErrorKind};
-use crate::mesh::{Defect, Defects};
+use crate::mesh::{Defect, Defects, summary};
 use std::ffi::{CStr, c_char};
 
 #[unsafe(no_mangle)]
@@ -113,10 +113,11 @@ impl From<Defects> for Fault {
     fn from(defects: Defects) -> Self {
         match defects {
             Defects::Call(error) => error.into(),
-            Defects::Soup(list) => {
-                let entries = Entries::Defects(list.clone());
-                Self { entries, ..Error::from(Defects::Soup(list)).into() }
-            }
+            Defects::Soup(list) => Self {
+                status: list[0].kind() as carvel_status,
+                message: summary(&list),
+                entries: Entries::Defects(list),
+            },
         }
     }
 }
