@@ -14,6 +14,16 @@ pub extern "C" fn carvel_version() -> *const c_char {
     VERSION.as_ptr()
 }
 
+#[unsafe(no_mangle)]
+pub extern "C" fn carvel_version_number() -> u32 {
+    const PARTS: [&str; 3] = [
+        env!("CARGO_PKG_VERSION_MAJOR"),
+        env!("CARGO_PKG_VERSION_MINOR"),
+        env!("CARGO_PKG_VERSION_PATCH"),
+    ];
+    PARTS.iter().fold(0, |number, part| 100 * number + part.parse::<u32>().unwrap_or(99))
+}
+
 pub type carvel_status = i32;
 
 /// The codes, their names in C and their texts, written once.
@@ -45,7 +55,7 @@ statuses! {
     CARVEL_STATUS_NOT_FINITE = ErrorKind::NotFinite as i32, c"value is not finite";
     CARVEL_STATUS_OVERFLOW = ErrorKind::Overflow as i32, c"value overflows";
     CARVEL_STATUS_PARAMETER_OUT_OF_RANGE = ErrorKind::ParameterOutOfRange as i32, c"parameter out of range";
-    CARVEL_STATUS_INVALID_TEXT = ErrorKind::InvalidText as i32, c"not a number";
+    CARVEL_STATUS_INVALID_NUMBER = ErrorKind::InvalidText as i32, c"not a number";
     CARVEL_STATUS_MEMORY_CEILING = ErrorKind::MemoryCeiling as i32, c"memory ceiling exceeded";
     CARVEL_STATUS_OUT_OF_RESOURCES = ErrorKind::OutOfResources as i32, c"out of memory or threads";
     CARVEL_STATUS_CANCELLED = ErrorKind::Cancelled as i32, c"cancelled";

@@ -52,6 +52,7 @@ pub fn build(
     indices: &[u32],
     options: &BuildOptions,
 ) -> Result<Built, Defects> {
+    context.check_cancelled()?;
     let offsets = check_sizes(context, vertices, sizes, indices)?;
     let mut defects = face_defects(context, vertices, &offsets, indices)?;
     let soup = Soup::arrange(sizes, &offsets, indices, &defects)?;
