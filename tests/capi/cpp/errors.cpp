@@ -91,6 +91,14 @@ static void every_check_is_the_librarys()
     std::vector<double> points = pyramid.points;
     points.push_back(0);
     CHECK(THROWN(carvel::refine(mesh, scheme, 1, points)) == CARVEL_STATUS_LENGTH_MISMATCH);
+    const carvel::Hierarchy levels = carvel::Hierarchy::create(mesh, scheme, 1);
+    for (const std::uint64_t width : {std::uint64_t{0}, std::uint64_t{65537}, UINT64_MAX}) {
+        const carvel::ConstValues<double> odd(points.data(), 5, width);
+        CHECK(THROWN(levels.refine(1, odd)) == CARVEL_STATUS_PARAMETER_OUT_OF_RANGE);
+        carvel::RefineInput<double> input{mesh, scheme, 1, carvel::values(points.data(), 5)};
+        input.attributes = {&odd, 1};
+        CHECK(THROWN(carvel::refine(input)) == CARVEL_STATUS_PARAMETER_OUT_OF_RANGE);
+    }
     points.resize(12);
     CHECK(THROWN(carvel::refine(mesh, scheme, 1, points)) == CARVEL_STATUS_LENGTH_MISMATCH);
     points = pyramid.points;
