@@ -6,8 +6,9 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use carvel_capi_tests::header::{self, Header};
-use carvel_capi_tests::library::{Library, library};
+use carvel_capi_tests::library::{Library, library, symbols};
 use carvel_capi_tests::program::{self, Limit};
+use carvel_capi_tests::version::version;
 use carvel_capi_tests::{agreement, library, root, sources, work_directory};
 
 #[test]
@@ -86,10 +87,7 @@ fn the_library_has_no_constants_of_its_own() {
 
 /// The functions that a shared library exports.
 fn exports(shared: &Path) -> BTreeSet<String> {
-    let mut nm = Command::new("nm");
-    nm.args(["--dynamic", "--defined-only", "--format=posix"]).arg(shared);
-    let out = program::run(&mut nm, Limit::TOOL);
-    out.stdout.lines().filter_map(|l| l.split(' ').next()).map(str::to_owned).collect()
+    symbols(&["--dynamic", "--defined-only"], shared)
 }
 
 #[test]
@@ -128,9 +126,7 @@ fn the_versions_agree() {
     let header = Header::read(&header::text());
     let number = |name: &str| header.constant(&format!("CARVEL_VERSION_{name}"));
     let parts = [number("MAJOR"), number("MINOR"), number("PATCH")].join(".");
-    let cargo = std::fs::read_to_string(root().join("Cargo.toml")).expect("the manifest");
-    let line = cargo.lines().find_map(|line| line.strip_prefix("version = ")).expect("a version");
-    assert_eq!(format!("\"{parts}\""), line);
+    assert_eq!(parts, version());
     assert_eq!(number("STRING"), format!("b\"{parts}\\0\""));
 }
 
