@@ -8,7 +8,7 @@ use std::process::Command;
 use carvel_capi_tests::header::{self, Header};
 use carvel_capi_tests::library::{Library, library, symbols};
 use carvel_capi_tests::program::{self, Limit};
-use carvel_capi_tests::version::version;
+use carvel_capi_tests::version::{series, version};
 use carvel_capi_tests::{agreement, library, root, sources, work_directory};
 
 #[test]
@@ -45,9 +45,14 @@ fn a_dropped_const_is_noticed() {
 #[test]
 fn a_changed_width_is_noticed() {
     assert_refused(
-        "carvel_refiner_bytes(const carvel_refiner *refiner)",
-        "carvel_refiner_bytes(const carvel_refiner *refiner, int x)",
-        "carvel_refiner_bytes",
+        "uint32_t level, carvel_counts *counts,",
+        "uint64_t level, carvel_counts *counts,",
+        "carvel_hierarchy_counts",
+    );
+    assert_refused(
+        "uint32_t carvel_hierarchy_last_level(",
+        "uint64_t carvel_hierarchy_last_level(",
+        "carvel_hierarchy_last_level",
     );
     assert_refused("uint32_t thread_count;", "uint64_t thread_count;", "carvel_context_desc");
     assert_refused("typedef int32_t carvel_status;", "typedef int64_t carvel_status;", "i64");
@@ -132,7 +137,7 @@ fn the_versions_agree() {
 
 /// The recorded interface of this series of versions.
 fn recorded() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("abi/carvel-0.1.abi")
+    root().join(format!("tests/capi/abi/carvel-{}.abi", series()))
 }
 
 /// The library with all of its debug information: a stripped one compares as
