@@ -3,7 +3,7 @@
 
 use std::fs;
 use std::os::unix::fs::symlink;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use carvel_capi_tests::library::{dynamic, native_libraries, rustc, symbols};
@@ -151,12 +151,18 @@ fn configure(stage: &Stage, lists: &str, arguments: &[&str]) -> Command {
 }
 
 fn build_with_cmake(stage: &Stage) {
+    let names = ["shared_c", "shared_cpp", "static_c", "static_cpp"];
+    build_these_with_cmake(stage, &names, &[]);
+}
+
+fn build_these_with_cmake(stage: &Stage, names: &[&str], arguments: &[&str]) {
     let build = stage.room.path().join("a host/build");
-    printed(&mut configure(stage, "install_cmake.txt", &["-DCMAKE_C_FLAGS=-Wall -Werror"]));
+    let arguments = [&["-DCMAKE_C_FLAGS=-Wall -Werror"], arguments].concat();
+    printed(&mut configure(stage, "install_cmake.txt", &arguments));
     assert_eq!(fs::read_to_string(build.join("version")).expect("text"), version());
     printed(Command::new("cmake").arg("--build").arg(&build));
     let soname = format!("libcarvel.so.{}", series());
-    for name in ["shared_c", "shared_cpp", "static_c", "static_cpp"] {
+    for name in names {
         // The path to the library is in the program, as CMake leaves it in build folders.
         assert_eq!(printed(&mut Command::new(build.join(name))), version());
         let needed = dynamic(&build.join(name), "(NEEDED)");
@@ -204,9 +210,26 @@ fn cmake_grants_versions_of_the_same_series_only() {
 #[test]
 fn cmake_says_what_is_missing() {
     let stage = Stage::installed("a prefix", &[]);
+    let shared = format!("lib/libcarvel.so.{}", version());
+    for file in [shared.as_str(), "include/carvel.h", "include/carvel.hpp"] {
+        let aside = stage.room.path().join("aside");
+        fs::rename(stage.at(file), &aside).expect("the file goes");
+        let said = refused(&mut configure(&stage, "install_cmake.txt", &[]));
+        let name = file.rsplit('/').next().expect("a name");
+        assert!(said.contains(&format!("{name} is missing")), "{said}");
+        fs::rename(aside, stage.at(file)).expect("the file comes back");
+    }
+    printed(&mut configure(&stage, "install_cmake.txt", &[]));
+}
+
+/// Distributions leave the static library out; who asks for it is told so by name.
+#[test]
+fn cmake_does_without_the_static_library() {
+    let stage = Stage::installed("a prefix", &[]);
     fs::remove_file(stage.at("lib/libcarvel.a")).expect("the library goes");
-    let said = refused(&mut configure(&stage, "install_cmake.txt", &[]));
-    assert!(said.contains("libcarvel.a is missing"), "{said}");
+    build_these_with_cmake(&stage, &["shared_c", "shared_cpp"], &["-DWITH_STATIC=OFF"]);
+    let said = refused(&mut configure(&stage, "install_cmake.txt", &["-DWITH_STATIC=ON"]));
+    assert!(said.contains("carvel::carvel-static"), "{said}");
 }
 
 #[test]
@@ -229,16 +252,77 @@ fn uninstalling_leaves_nothing_and_takes_nothing_else() {
     assert_eq!(tree(stage.destdir().expect("a stage")), Vec::<String>::new());
 }
 
+/// A program for the shell, in a folder without spaces.
+fn script(stage: &Stage, name: &str, text: &str) -> PathBuf {
+    let (written, path) = (stage.room.path().join(name), stage.plain.path().join(name));
+    fs::write(&written, format!("#!/bin/sh\n{text}\n")).expect("a script");
+    // By another program: were it this one, a thread that starts a third might hold it
+    // open for writing a moment longer, and it could not be run.
+    printed(Command::new("install").args(["-m", "755"]).arg(written).arg(&path));
+    path
+}
+
+/// Installs into /usr where the compiler and dpkg answer as these scripts do; the folder
+/// of the libraries.
+fn installed_in_usr(compiler: &str, dpkg: &str) -> (Stage, String) {
+    let stage = Stage::new("/usr", &[]);
+    let answers = format!("test \"$*\" = -print-multiarch || exit 9\n{compiler}");
+    let compiler = script(&stage, "cc", &answers);
+    script(&stage, "dpkg-architecture", dpkg);
+    let path = std::env::var("PATH").expect("a search path");
+    let path = format!("{}:{path}", stage.plain.path().display());
+    printed(stage.make("install").env("CC", compiler).env("PATH", path));
+    let found = tree(&stage.at(""));
+    let place = found.iter().find_map(|name| name.strip_suffix("/pkgconfig/carvel.pc"));
+    let place = place.unwrap_or_else(|| panic!("no carvel.pc in {found:#?}")).to_owned();
+    assert!(stage.at(&place).join("libcarvel.so").is_file(), "{found:#?}");
+    assert!(stage.at("include/carvel.h").is_file());
+    let text = fs::read_to_string(stage.at(&place).join("pkgconfig/carvel.pc")).expect("text");
+    assert!(text.contains(&format!("\nlibdir=${{prefix}}/{place}\n")), "{text}");
+    (stage, place)
+}
+
+/// Whatever this machine's own compiler says.
 #[test]
 fn libraries_go_where_debian_has_them() {
-    let triplet = printed(Command::new("cc").arg("-print-multiarch"));
-    let stage = Stage::installed("/usr", &[]);
-    let library = if triplet.is_empty() { "lib".to_owned() } else { format!("lib/{triplet}") };
-    assert!(stage.at(&library).join("pkgconfig/carvel.pc").is_file(), "{:#?}", tree(&stage.at("")));
-    assert!(stage.at("include/carvel.h").is_file());
+    let (stage, place) = installed_in_usr("echo fake-linux-gnu", "echo other-linux-gnu");
+    assert_eq!(place, "lib/fake-linux-gnu");
+    // CMake looks in the folders of its own compiler's triplet, and of no other.
+    let place = stage.at("lib/fake-linux-gnu/cmake/carvel");
+    let place = format!("-Dcarvel_DIR={}", place.display());
+    build_these_with_cmake(&stage, &["shared_c", "static_c"], &[&place]);
+}
+
+#[test]
+fn libraries_go_where_the_compiler_names_no_triplet() {
+    // GCC of a system without such folders prints an empty line.
+    let (stage, place) = installed_in_usr("echo", "echo other-linux-gnu");
+    assert_eq!(place, "lib");
     build_with_cmake(&stage);
-    let text = fs::read_to_string(stage.at(&library).join("pkgconfig/carvel.pc")).expect("text");
-    assert!(text.contains(&format!("\nlibdir=${{prefix}}/{library}\n")), "{text}");
+    // A compiler that does not know the question leaves it to dpkg, if there is one.
+    assert_eq!(installed_in_usr("exit 1", "echo other-linux-gnu").1, "lib/other-linux-gnu");
+    assert_eq!(installed_in_usr("exit 1", "exit 1").1, "lib");
+}
+
+/// `make install` asks the compiler that is there.
+#[test]
+fn a_stage_of_usr_is_found_through_cmake() {
+    build_with_cmake(&Stage::installed("/usr", &[]));
+}
+
+/// Other goals take `make CARGO='cargo +nightly'` as well.
+#[test]
+fn cargo_may_be_a_command_with_arguments() {
+    let stage = Stage::new("a prefix", &[]);
+    let text = "test \"$1 $2\" = '+some --thing' || exit 9\nshift 2\nexec cargo \"$@\"";
+    let cargo = script(&stage, "wrapped", text);
+    let out = stage.plain.path().join("out");
+    let mut make = stage.make("lib");
+    make.arg(format!("CARGO={} +some --thing", cargo.display()));
+    printed(make.arg(format!("LIB={}", out.display())));
+    let mut found = tree(&out);
+    found.retain(|name| !["log", "messages"].contains(&name.as_str()));
+    assert_eq!(found, ["facts", "libcarvel.a", "libcarvel.so"]);
 }
 
 #[test]
