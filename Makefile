@@ -20,19 +20,19 @@ demo: tools
 
 # Format, lints, every test, the documentation's examples, the lean build.
 test: test-tools lint
-	$(CARGO) test --workspace --locked
+	$(CARGO) test --workspace --all-features --locked
 	$(CARGO) build --locked --no-default-features
-	$(CARGO) bench --locked --no-run
+	$(CARGO) bench --all-features --locked --no-run
 	OUT=out/test $(MAKE) --no-print-directory demo
 
 lint: tools
 	$(CARGO) fmt --all --check
-	$(CARGO) clippy --workspace --locked --all-targets -- -D warnings
-	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --locked --no-deps --lib --quiet
+	$(CARGO) clippy --workspace --all-features --locked --all-targets -- -D warnings
+	RUSTDOCFLAGS="-D warnings" $(CARGO) doc --all-features --locked --no-deps --lib --quiet
 
 # Minutes of work: more random meshes, a large mesh, fuzzing.
 deep: tools
-	PROPTEST_CASES=512 $(CARGO) test --release --locked
+	PROPTEST_CASES=512 $(CARGO) test --workspace --all-features --release --locked
 	tests/capi/tsan.sh
 	$(CARGO) build --release --locked
 	mkdir -p out/deep
@@ -55,7 +55,7 @@ fuzz:
 
 # Speed; results with date and machine are kept in benches/README.md.
 bench: tools
-	$(CARGO) bench --locked
+	$(CARGO) bench --all-features --locked
 
 # Records the C interface after a change that docs/abi.md allows.
 abi-record: test-tools

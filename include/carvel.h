@@ -108,19 +108,21 @@
  *
  * What holds for every function
  * =============================
- * Status.    A function that can fail returns a carvel_status, 0 for success.
+ * Status     A function that can fail returns a carvel_status, 0 for success.
  *            Results go through pointers. On failure an object pointer is set
  *            to NULL; other outputs are untouched unless the function says
  *            otherwise. Nothing is ever printed, no call aborts on bad input.
  *
  * Errors     The last argument, `error`, may be NULL. Otherwise it is filled
- *            with what went wrong, and emptied by a call that succeeds.
+ *            with what went wrong, and emptied by a call that succeeds. One that
+ *            is misaligned is answered before anything else is looked at.
  *
  * Pointers   are checked for NULL and for alignment, sizes for what memory and
- *            indices can hold, before anything is read or written. Where a
- *            count is 0 its pointer is not looked at. Whether memory is really
- *            there cannot be checked; a pointer to freed memory or to another
- *            kind of object is undefined behaviour, as everywhere in C.
+ *            indices can hold, before anything is read or written: NULL_POINTER,
+ *            MISALIGNED, TOO_LARGE. Where a count is 0 its pointer is not
+ *            followed. Whether memory is really there cannot be checked; a
+ *            pointer to freed memory or to another kind of object is undefined
+ *            behaviour, as everywhere in C.
  *
  * Counts     are uint64_t and count elements, never bytes. Strides count bytes.
  *            Vertex, corner and face indices are uint32_t, counted from 0. A
@@ -137,7 +139,7 @@
  *
  * Structs    that may grow start with `struct_size`, the size that the caller
  *            was compiled with, and have an _init function that takes it and
- *            sets defaults. In descriptions zero is the default of every field,
+ *            sets defaults. Zero is the default of every field,
  *            so that a zeroed struct with `struct_size` set is the same. A
  *            smaller size that ends between two fields is read as an older
  *            version: the rest takes its default. A larger one is refused with
@@ -172,6 +174,9 @@
 #define CARVEL_VERSION_MINOR 1
 #define CARVEL_VERSION_PATCH 0
 #define CARVEL_VERSION_STRING "0.1.0"
+/* A number that orders: two digits each for minor and patch. */
+#define CARVEL_VERSION \
+    (CARVEL_VERSION_MAJOR * 10000 + CARVEL_VERSION_MINOR * 100 + CARVEL_VERSION_PATCH)
 
 /* CARVEL_API marks what is stable; CARVEL_EXPERIMENTAL what may still change in
  * any version (docs/abi.md). Define CARVEL_STATIC before including this file to
@@ -194,6 +199,9 @@ extern "C" {
 /* The version of the library that is running, such as "0.1.0". The string is
  * static. Compare with CARVEL_VERSION_STRING, which was compiled in. */
 CARVEL_API const char *carvel_version(void);
+
+/* The same as a number, like CARVEL_VERSION. */
+CARVEL_API uint32_t carvel_version_number(void);
 
 /* What a call came to: one of enum carvel_status_code. The numbers are never
  * changed or used again; later versions add to them. */
@@ -232,7 +240,7 @@ enum carvel_status_code {
     /* A parameter lies outside its documented range. */
     CARVEL_STATUS_PARAMETER_OUT_OF_RANGE = 13,
     /* A fraction has the denominator 0, or a term that cannot be negated. */
-    CARVEL_STATUS_INVALID_TEXT = 14,
+    CARVEL_STATUS_INVALID_NUMBER = 14,
 
     /* Resources. */
     /* The work would need more memory than the context's ceiling allows. */
@@ -242,7 +250,8 @@ enum carvel_status_code {
     /* The progress callback or carvel_context_cancel asked to stop. */
     CARVEL_STATUS_CANCELLED = 17,
 
-    /* Files; no function of this version returns these. */
+    /* Files; no function of this header returns these yet. The C++ layer answers
+     * UNSUPPORTED for what it cannot take from another library. */
     CARVEL_STATUS_IO = 18,
     CARVEL_STATUS_SYNTAX = 19,
     CARVEL_STATUS_UNSUPPORTED = 20,
@@ -281,7 +290,8 @@ CARVEL_API const char *carvel_status_string(carvel_status status);
  * Made once, passed to any number of calls, one thread at a time. It holds a
  * status, a message of one line, and a list of entries: every defect of a mesh
  * that was refused, otherwise the failure itself. Entries name elements.
- * Strings from an error are valid until the next call that is given it.
+ * Strings from an error are valid until the next call that fills it, as its last
+ * argument. Every function below looks things up; none costs more than its result.
  * Where `error` may be NULL the functions answer as for an empty error.
  * ========================================================================== */
 
@@ -328,8 +338,8 @@ CARVEL_API uint64_t carvel_error_entry_count(const carvel_error *error);
 /* The status of an entry; OK if there is no such entry. */
 CARVEL_API carvel_status carvel_error_entry_status(const carvel_error *error, uint64_t entry);
 
-/* The message of an entry, made when asked for: valid until the next call with
- * this error, this function included. "" if there is no such entry. */
+/* The message of an entry, made when asked for: valid until the next call of this
+ * function with this error, too. "" if there is no such entry. */
 CARVEL_API const char *carvel_error_entry_message(carvel_error *error, uint64_t entry);
 
 /* The number of elements that an entry names: the vertex or the edge first,
@@ -351,8 +361,11 @@ CARVEL_API carvel_element carvel_error_element(const carvel_error *error, uint64
 typedef struct carvel_context carvel_context;
 
 /* Told how much of a call is done, from 0 to 1, on the thread that made the
- * call; a non-zero answer cancels it. Two calls at once on one context call it
- * at once. It must return: throwing a C++ exception or longjmp out of it is
+ * call; a non-zero answer cancels it, the last one too. carvel_refiner_refine,
+ * carvel_hierarchy_create and carvel_hierarchy_refine call it when work begins,
+ * after each level, and between the faces and the values of the last; other
+ * calls, and the work in between, notice carvel_context_cancel only. Two calls
+ * at once on one context call it at once. It must return: throwing a C++ exception or longjmp out of it is
  * undefined behaviour. It must not call functions with the objects that the
  * running call writes to, nor destroy any that it was given. */
 typedef int32_t (*carvel_progress)(double done, void *user_data);
@@ -379,8 +392,8 @@ CARVEL_API carvel_status carvel_context_desc_init(carvel_context_desc *desc,
                                                   uint32_t struct_size);
 
 /* Makes a context and starts its threads.
- * Errors: NULL_POINTER, MISALIGNED, STRUCT_SIZE; OUT_OF_RESOURCES if the system
- * refuses threads or more than 1024 are asked for. */
+ * Errors: NULL_POINTER, MISALIGNED, STRUCT_SIZE; PARAMETER_OUT_OF_RANGE for more
+ * than 1024 threads; OUT_OF_RESOURCES if the system refuses them. */
 CARVEL_API carvel_status carvel_context_create(const carvel_context_desc *desc,
                                                carvel_context **out, carvel_error *error);
 
@@ -473,7 +486,7 @@ CARVEL_API carvel_status carvel_scheme_desc_init(carvel_scheme_desc *desc,
 
 /* Makes a scheme. A field that belongs to another family must have its default.
  * Errors: NULL_POINTER, MISALIGNED, STRUCT_SIZE, PARAMETER_OUT_OF_RANGE,
- * INVALID_TEXT for a fraction. No cost to speak of. */
+ * INVALID_NUMBER for a fraction. No cost to speak of. */
 CARVEL_API carvel_status carvel_scheme_create(const carvel_scheme_desc *desc,
                                               carvel_scheme **out, carvel_error *error);
 
@@ -506,7 +519,7 @@ typedef struct carvel_mesh carvel_mesh;
  * them in the same direction, and vertices of more than one fan. */
 enum carvel_non_manifold {
     /* Refuse the mesh. */
-    CARVEL_NON_MANIFOLD_ERROR = 0,
+    CARVEL_NON_MANIFOLD_REFUSE = 0,
     /* Make every face side at such an edge a boundary edge, and give every extra
      * fan of a vertex its own copy of it; carvel_mesh_vertex_sources tells. */
     CARVEL_NON_MANIFOLD_CUT = 1
@@ -517,7 +530,8 @@ enum carvel_non_manifold {
  *   face_offsets  the first corner of every face, and the number of corners as
  *                 the last entry, face_count + 1 in all (VTK, Blender);
  *   face_size     one size for all faces, and no array.
- * Exactly one is given. The arrays are read where they are; face_sizes costs no
+ * Exactly one is given, its pointer being what tells; for no faces it may be none.
+ * The arrays are read where they are; face_sizes costs no
  * copy, the other two one of 4 bytes for each face while the mesh is built. */
 typedef struct carvel_mesh_desc {
     /* sizeof(carvel_mesh_desc). */
@@ -528,7 +542,7 @@ typedef struct carvel_mesh_desc {
     uint64_t face_count;
     /* face_count entries, or NULL. */
     const uint32_t *face_sizes;
-    /* face_count + 1 entries from 0 on, never falling, or NULL. */
+    /* face_count + 1 entries, the first 0, none below the one before, or NULL. */
     const uint32_t *face_offsets;
     /* The vertices of all faces, counter-clockwise seen from outside. */
     const uint32_t *face_vertices;
@@ -551,7 +565,8 @@ CARVEL_API carvel_status carvel_mesh_desc_init(carvel_mesh_desc *desc, uint32_t 
 
 /* Builds a mesh; O(corners). A mesh without faces or vertices is allowed.
  * Errors: NULL_POINTER, MISALIGNED, STRUCT_SIZE; PARAMETER_OUT_OF_RANGE for an
- * unknown policy, for no layout or for several, and for falling offsets;
+ * unknown policy, for `anchored` other than 0 and 1, for no layout or for several,
+ * and for offsets that fall or do not begin at 0;
  * LENGTH_MISMATCH, TOO_LARGE; INDEX_OUT_OF_RANGE to NON_MANIFOLD_VERTEX for the
  * first defect, with all of them as entries of the error; NOT_ANCHORED,
  * INVALID_TAG, MEMORY_CEILING, OUT_OF_RESOURCES, CANCELLED. */
@@ -647,7 +662,7 @@ CARVEL_API carvel_status carvel_mesh_histogram(const carvel_mesh *mesh, int32_t 
 
 /* The arrays of a mesh. Each function fills a caller's buffer of `capacity`
  * entries; the number written is given below in terms of carvel_counts.
- * Errors: NULL_POINTER, MISALIGNED, BUFFER_TOO_SMALL. Linear cost. */
+ * Errors: NULL_POINTER, MISALIGNED, TOO_LARGE, BUFFER_TOO_SMALL. Linear cost. */
 
 /* The size of every face: `faces` entries. */
 CARVEL_API carvel_status carvel_mesh_face_sizes(const carvel_mesh *mesh, uint32_t *out,
@@ -714,7 +729,9 @@ typedef struct carvel_bytes {
     uint32_t level;
     /* The adjacency of levels 1 to `level` in a carvel_hierarchy. */
     uint64_t topology;
-    /* Scratch memory of a refiner while it writes that level. */
+    /* Scratch memory of a refiner while it writes that level, without what
+     * face_sources (4 bytes for each face of all levels) and records with gaps
+     * (a copy of them) take. */
     uint64_t scratch;
     /* Faces (sizes and vertices) and values of that level. */
     uint64_t output;
@@ -728,7 +745,7 @@ CARVEL_API carvel_status carvel_bytes_init(carvel_bytes *bytes, uint32_t struct_
  * look at the boundary and the irregular vertices.
  * level: 0 to 64; the counts may exceed what 32-bit indices can hold.
  * Errors: NULL_POINTER, MISALIGNED, STRUCT_SIZE; TOO_LARGE if a count leaves 64
- * bits, and for more than 64 levels. */
+ * bits, and for more than 64 levels; OUT_OF_RESOURCES. */
 CARVEL_API carvel_status carvel_predict_counts(const carvel_mesh *mesh,
                                                const carvel_scheme *scheme, uint32_t level,
                                                carvel_counts *counts, carvel_error *error);
@@ -768,7 +785,7 @@ typedef struct carvel_const_values_f64 {
     uint64_t stride;
 } carvel_const_values_f64;
 
-/* Values to write: the same, `count` being the number of records that fit, and
+/* Values to write, their layout final too: the same, `count` being the number of records that fit, and
  * `width` that of the input. Bytes between records are left as they are. */
 typedef struct carvel_values_f32 {
     float *data;
@@ -784,7 +801,8 @@ typedef struct carvel_values_f64 {
     uint64_t stride;
 } carvel_values_f64;
 
-/* Indices to write: room for `count` entries, or NULL if they are not wanted. */
+/* Indices to write: room for `count` entries. Not wanted if `data` is NULL and
+ * `count` is 0. The layout is final. */
 typedef struct carvel_indices {
     uint32_t *data;
     uint64_t count;
@@ -808,7 +826,8 @@ CARVEL_API carvel_status carvel_refiner_create(carvel_refiner **out, carvel_erro
 /* Destroys a refiner and its scratch memory; NULL is allowed. */
 CARVEL_API void carvel_refiner_destroy(carvel_refiner *refiner);
 
-/* Bytes of scratch memory held. 0 for NULL, and while a call is running. */
+/* Bytes of scratch memory held since the last call that ended; 0 for NULL. Any
+ * thread. */
 CARVEL_API uint64_t carvel_refiner_bytes(const carvel_refiner *refiner);
 
 /* What to refine. The mesh's own vertices are counted: with
@@ -837,8 +856,8 @@ typedef struct carvel_refine_input_f64 {
     uint64_t attribute_count;
 } carvel_refine_input_f64;
 
-/* Where the result goes. Sizes are those of carvel_predict_counts. Index arrays
- * with data NULL are not written. */
+/* Where the result goes. Sizes are those of carvel_predict_counts. It must not
+ * overlap any buffer. */
 typedef struct carvel_refine_output_f32 {
     /* sizeof(carvel_refine_output_f32). */
     uint32_t struct_size;
@@ -886,18 +905,20 @@ CARVEL_API carvel_status carvel_refine_output_f64_init(carvel_refine_output_f64 
                                                        uint32_t struct_size);
 
 /* Refines into the caller's buffers. Everything is checked before anything is
- * written, but for overflow and cancellation: after those the buffers' content
- * is undefined. Costs O(corners of the last level).
+ * written, but for OVERFLOW, CANCELLED, OUT_OF_RESOURCES and PANIC: after those the
+ * buffers' content is undefined. Costs O(corners of the last level).
  *
  * TOO_LARGE and MEMORY_CEILING come before BUFFER_TOO_SMALL: a call without
- * buffers tells whether it is worth making them.
+ * buffers tells whether it is worth making them (but for what records with gaps
+ * take).
  *
  * The result does not depend on threads. A mesh built anew from the faces of a
  * level gives the same surface, numbered otherwise.
  *
  * Errors: NULL_POINTER, MISALIGNED, STRUCT_SIZE, INVALID_STRIDE, OVERLAP,
- * BUFFER_TOO_SMALL; LENGTH_MISMATCH for a wrong count or width;
- * PARAMETER_OUT_OF_RANGE for too many attributes; NOT_FINITE, OVERFLOW;
+ * BUFFER_TOO_SMALL; LENGTH_MISMATCH for a wrong count, or a width that is not that
+ * of the positions or of the input; PARAMETER_OUT_OF_RANGE for a width that is none
+ * and for too many attributes; NOT_FINITE, OVERFLOW;
  * TOO_LARGE, MEMORY_CEILING, OUT_OF_RESOURCES; CANCELLED; BUSY. */
 CARVEL_API carvel_status carvel_refiner_refine_f32(carvel_refiner *refiner,
                                                    const carvel_context *context,
@@ -951,10 +972,11 @@ CARVEL_API carvel_status carvel_hierarchy_mesh(const carvel_hierarchy *hierarchy
 /* Refines values on the control vertices to a level: a record for every control
  * vertex in, one of the same width for every vertex of that level out. For
  * positions, and for anything else that lives on vertices. Everything is checked
- * before anything is written, but for overflow and cancellation: after those the
- * buffer's content is undefined. O(vertices of the level).
+ * before anything is written, but for OVERFLOW, CANCELLED, OUT_OF_RESOURCES and
+ * PANIC: after those the buffer's content is undefined. O(vertices of the level).
  * Errors: NULL_POINTER, MISALIGNED, INVALID_STRIDE, OVERLAP, BUFFER_TOO_SMALL,
- * LENGTH_MISMATCH, PARAMETER_OUT_OF_RANGE, NOT_FINITE, OVERFLOW, MEMORY_CEILING,
+ * LENGTH_MISMATCH, TOO_LARGE, PARAMETER_OUT_OF_RANGE, NOT_FINITE, OVERFLOW,
+ * MEMORY_CEILING,
  * OUT_OF_RESOURCES, CANCELLED. */
 CARVEL_API carvel_status carvel_hierarchy_refine_f32(const carvel_hierarchy *hierarchy,
                                                      const carvel_context *context,
@@ -1017,8 +1039,7 @@ CARVEL_API carvel_status carvel_hierarchy_face_origins(const carvel_hierarchy *h
  * capacity 0 both may be NULL and only `offsets` and `count` are written.
  * count: receives the number of entries; may be NULL.
  * Errors: NULL_POINTER, MISALIGNED, OVERLAP, PARAMETER_OUT_OF_RANGE for a level
- * or a stage that there is not, BUFFER_TOO_SMALL; TOO_LARGE if the entries do
- * not fit 64-bit sizes. */
+ * or a stage that there is not, BUFFER_TOO_SMALL, TOO_LARGE, OUT_OF_RESOURCES. */
 CARVEL_EXPERIMENTAL carvel_status carvel_hierarchy_rows(const carvel_hierarchy *hierarchy,
                                                         uint32_t level, uint32_t stage,
                                                         uint64_t *offsets,

@@ -105,6 +105,9 @@ using Survey = carvel_survey;
 /* The version of the library that is running, such as "0.1.0". */
 inline const char *version() noexcept { return carvel_version(); }
 
+/* The same as a number, like CARVEL_VERSION. */
+inline std::uint32_t version_number() noexcept { return carvel_version_number(); }
+
 /* ==========================================================================
  * Failure, Error, Result: why a call failed
  * ========================================================================== */
@@ -539,11 +542,13 @@ namespace detail {
  * what a progress function throws meanwhile on this thread. */
 class Call {
 public:
-    Call() : outer_(std::exchange(current(), this))
+    Call()
     {
         carvel_error *error = nullptr;
         carvel_error_create(&error);
         error_.reset(error, carvel_error_destroy);
+        /* Last: what throws above leaves no trace. */
+        outer_ = std::exchange(current(), this);
     }
     ~Call() { current() = outer_; }
     Call(const Call &) = delete;
@@ -558,7 +563,10 @@ public:
     template <class T>
     bool grow(std::vector<T> &vector, std::uint64_t size, std::uint64_t factor = 1)
     {
-        const std::uint64_t most = static_cast<std::uint64_t>(vector.max_size()) / factor;
+        if (factor == 0)
+            size = 0;
+        const std::uint64_t most =
+            static_cast<std::uint64_t>(vector.max_size()) / (factor == 0 ? 1 : factor);
         void *probe = nullptr;
         if (size <= most)
             probe = ::operator new(static_cast<std::size_t>(size * factor) * sizeof(T),
@@ -610,7 +618,7 @@ private:
 
     std::shared_ptr<carvel_error> error_;
     std::exception_ptr exception_;
-    Call *outer_;
+    Call *outer_ = nullptr;
     bool no_memory_ = false;
 };
 
@@ -877,7 +885,7 @@ struct Faces {
 };
 
 struct MeshOptions {
-    carvel_non_manifold non_manifold = CARVEL_NON_MANIFOLD_ERROR;
+    carvel_non_manifold non_manifold = CARVEL_NON_MANIFOLD_REFUSE;
     /* The faces are the result of a refinement that said so. */
     bool anchored = false;
     /* Boundary vertices to interpolate; read by create and not kept. */
@@ -1450,7 +1458,12 @@ private:
             return counts.error();
         detail::Call call;
         std::vector<T> out;
-        if (call.grow(out, counts->vertices, from.width)) {
+        /* What the library would refuse is refused before a vector is made. */
+        const Values<T> nowhere(nullptr, 0, from.width);
+        call.status =
+            detail::refine(get(), detail::raw(context), level, &from, &nowhere, call.error());
+        if (call.status == CARVEL_STATUS_BUFFER_TOO_SMALL &&
+            call.grow(out, counts->vertices, from.width)) {
             const Values<T> to(out.data(), counts->vertices, from.width);
             call.status =
                 detail::refine(get(), detail::raw(context), level, &from, &to, call.error());
@@ -1520,8 +1533,11 @@ Result<Mesh> try_read(const M &mesh, const MeshOptions &options = {},
                 return deleted(CARVEL_ELEMENT_VERTEX, vertex.idx());
     std::vector<std::uint32_t> sizes;
     std::vector<std::uint32_t> corners;
-    sizes.reserve(mesh.n_faces());
-    corners.reserve(mesh.n_halfedges());
+    detail::Call call;
+    if (!call.grow(sizes, mesh.n_faces()) || !call.grow(corners, mesh.n_halfedges()))
+        return call.result(Mesh());
+    sizes.clear();
+    corners.clear();
     for (const auto face : mesh.all_faces()) {
         if (mesh.has_face_status() && mesh.status(face).deleted())
             return deleted(CARVEL_ELEMENT_FACE, face.idx());
@@ -1560,6 +1576,10 @@ Result<void> try_write(const Refined<T> &refined, M &mesh, Span<const T> uv = {}
     using Texture = typename M::TexCoord2D;
     using To = std::decay_t<decltype(std::declval<Point &>()[0])>;
     using ToTexture = std::decay_t<decltype(std::declval<Texture &>()[0])>;
+    if (!uv.empty() && uv.size() != 2 * refined.vertex_count())
+        return Failure(CARVEL_STATUS_LENGTH_MISMATCH,
+                       std::to_string(uv.size()) + " texture values for " +
+                           std::to_string(refined.vertex_count()) + " vertices");
     mesh.clear();
     mesh.reserve(refined.vertex_count(), refined.face_vertices.size(), refined.face_count());
     if (!uv.empty() && !mesh.has_vertex_texcoords2D())

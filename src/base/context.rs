@@ -16,6 +16,8 @@ use std::thread::JoinHandle;
 const CHUNKS_PER_THREAD: usize = 8;
 /// Elements below which a chunk is not split further.
 const SMALLEST_CHUNK: usize = 2048;
+/// The most threads of a context.
+const MOST_THREADS: usize = 1024;
 
 type Progress = Box<dyn Fn(f64) -> bool + Send + Sync>;
 
@@ -120,6 +122,16 @@ impl Context {
         self.cancel.cancel();
     }
 
+    /// True once a stop was asked for and not taken back.
+    pub fn is_cancelled(&self) -> bool {
+        self.cancel.is_cancelled()
+    }
+
+    /// Takes a request to stop back, as [`CancelFlag::reset`] does.
+    pub fn reset(&self) {
+        self.cancel.reset();
+    }
+
     /// Refuses work that is predicted to need more than the ceiling.
     ///
     /// # Errors
@@ -134,7 +146,7 @@ impl Context {
         }
     }
 
-    /// Reports progress in [0, 1] and asks whether to go on.
+    /// Reports progress in [0, 1] and asks whether to go on; 0 when a call begins.
     ///
     /// # Errors
     /// [`ErrorKind::Cancelled`] if the callback or the flag says stop.
@@ -143,7 +155,11 @@ impl Context {
         if go_on { self.check_cancelled() } else { Err(cancelled()) }
     }
 
-    fn check_cancelled(&self) -> Result<()> {
+    /// Fails if the flag asks for a stop.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Cancelled`].
+    pub(crate) fn check_cancelled(&self) -> Result<()> {
         if self.cancel.is_cancelled() { Err(cancelled()) } else { Ok(()) }
     }
 
@@ -237,7 +253,7 @@ impl ContextBuilder {
     }
 
     /// A callback that gets the part done, in [0, 1], and returns false to stop.
-    /// It may be called from any of the context's threads.
+    /// It is called on the thread that made the call.
     #[must_use]
     pub fn progress(mut self, callback: impl Fn(f64) -> bool + Send + Sync + 'static) -> Self {
         self.context.progress = Some(Box::new(callback));
@@ -255,15 +271,15 @@ impl ContextBuilder {
     /// Starts the threads.
     ///
     /// # Errors
-    /// [`ErrorKind::OutOfResources`] if the system refuses them, or if more
-    /// than 1024 are asked for.
+    /// [`ErrorKind::OutOfResources`] if the system refuses them,
+    /// [`ErrorKind::ParameterOutOfRange`] if more than 1024 are asked for.
     pub fn build(mut self) -> Result<Context> {
         let available = std::thread::available_parallelism().map_or(1, usize::from);
-        let n = if self.threads == 0 { available } else { self.threads };
-        if n > 1024 {
+        let n = if self.threads == 0 { available.min(MOST_THREADS) } else { self.threads };
+        if n > MOST_THREADS {
             return Err(Error::new(
-                ErrorKind::OutOfResources,
-                format!("{n} threads: the limit is 1024"),
+                ErrorKind::ParameterOutOfRange,
+                format!("{n} threads: the limit is {MOST_THREADS}"),
             ));
         }
         if n > 1 {

@@ -87,9 +87,9 @@ impl<T: Copy> Target<T> {
         Self { data, capacity, needed, name: name.into() }
     }
 
-    /// False for a buffer that need not be there.
+    /// False for a buffer that need not be there: neither pointer nor capacity.
     pub(super) fn is_given(&self) -> bool {
-        !self.data.is_null()
+        !self.data.is_null() || self.capacity > 0
     }
 
     /// Checks the buffer; returns what will be written.
@@ -108,7 +108,9 @@ impl<T: Copy> Target<T> {
     ///
     /// # Safety
     /// [`Target::span`] has been checked; it can be written, and nothing else uses
-    /// it as long as the slice lives.
+    /// it as long as the slice lives. It may hold anything: only types for which
+    /// every pattern of bits is a value come here, and they are written before they
+    /// are read.
     pub(super) unsafe fn slice<'a>(&self) -> &'a mut [T] {
         if self.needed == 0 {
             return &mut [];
@@ -154,17 +156,24 @@ pub(super) unsafe fn list<T: Copy>(
     capacity: u64,
     count: *mut u64,
 ) -> Result<()> {
+    // What fits is what is written; too small a buffer is told after the count.
+    let fits = (list.len() as u64).min(capacity);
+    let out = Target::new((out, capacity), fits, "out");
+    let mut spans = vec![out.span()?];
     if !count.is_null() {
-        check_pointer(count, "count")?;
-        // SAFETY: checked; the rest is the contract.
-        unsafe { count.write(list.len() as u64) };
+        spans.push(Target::new((count, 1), 1, "count").span()?);
+    }
+    check_overlap(&spans)?;
+    // SAFETY: checked; the rest is the contract.
+    if let Some(count) = unsafe { count.as_mut() } {
+        *count = list.len() as u64;
     }
     if capacity == 0 {
         return Ok(());
     }
-    // SAFETY: the contract.
-    let out = unsafe { output((out, capacity), list.len() as u64, "out")? };
-    out.copy_from_slice(list);
+    check_capacity(capacity, list.len() as u64, "out".into())?;
+    // SAFETY: as above.
+    unsafe { out.slice() }.copy_from_slice(list);
     Ok(())
 }
 
@@ -181,6 +190,12 @@ pub(super) struct Span {
 }
 
 impl Span {
+    /// The memory of one of the caller's structs, or of an array of them.
+    pub(super) fn of<T>(first: *const T, bytes: usize, written: bool, name: &'static str) -> Self {
+        let (start, record, count) = (first.addr(), bytes, usize::from(bytes > 0));
+        Self { start, record, period: record, count, written, name: name.into() }
+    }
+
     fn end(&self) -> usize {
         self.start + (self.count - 1) * self.period + self.record
     }

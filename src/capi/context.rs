@@ -1,10 +1,10 @@
 //! `carvel_context`: threads, memory ceiling, progress, cancellation.
 
-use super::guard::call;
+use super::carvel_error;
+use super::guard::{call, outside};
 use super::object::{destroy, look, object};
 use super::status::carvel_status;
 use super::versioned::{init, read, versioned};
-use super::{carvel_error, guard::quietly};
 use crate::base::Context;
 use std::ffi::c_void;
 
@@ -38,7 +38,7 @@ impl Callback {
     /// True to go on.
     fn call(&self, done: f64) -> bool {
         // SAFETY: the header asks for a function that can be called so and returns.
-        unsafe { (self.function)(done, self.user_data) == 0 }
+        outside(|| unsafe { (self.function)(done, self.user_data) == 0 })
     }
 }
 
@@ -98,14 +98,12 @@ pub unsafe extern "C" fn carvel_context_cancel(context: *mut carvel_context) {
 pub unsafe extern "C" fn carvel_context_reset(context: *mut carvel_context) {
     // SAFETY: the header's contract.
     if let Some(handle) = unsafe { look(context) } {
-        handle.value.cancel_flag().reset();
+        handle.value.reset();
     }
 }
 
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carvel_context_is_cancelled(context: *const carvel_context) -> i32 {
     // SAFETY: the header's contract.
-    let cancelled = unsafe { look(context) }
-        .map(|handle| quietly(|| handle.value.cancel_flag().is_cancelled()).unwrap_or(false));
-    i32::from(cancelled.unwrap_or(false))
+    i32::from(unsafe { look(context) }.is_some_and(|handle| handle.value.is_cancelled()))
 }

@@ -53,16 +53,38 @@ impl Report {
         }
     }
 
-    /// Status, text and elements of an entry.
-    fn at(&self, entry: u64) -> Option<(carvel_status, String, Vec<Element>)> {
-        let fault = self.fault.as_ref().filter(|_| entry < self.entries() as u64)?;
-        Some(match &fault.entries {
-            Entries::One(elements) => (fault.status, fault.message.clone(), elements.clone()),
-            Entries::Defects(list) => {
-                let defect = &list[entry as usize];
-                (defect.kind() as carvel_status, defect.to_string(), defect.elements())
-            }
+    /// The failure that an entry belongs to, if there is such an entry.
+    fn fault(&self, entry: u64) -> Option<&Fault> {
+        self.fault.as_ref().filter(|_| entry < self.entries() as u64)
+    }
+
+    fn status(&self, entry: u64) -> Option<carvel_status> {
+        self.fault(entry).map(|fault| match &fault.entries {
+            Entries::One(_) => fault.status,
+            Entries::Defects(list) => list[entry as usize].kind() as carvel_status,
         })
+    }
+
+    fn text(&self, entry: u64) -> Option<String> {
+        self.fault(entry).map(|fault| match &fault.entries {
+            Entries::One(_) => fault.message.clone(),
+            Entries::Defects(list) => list[entry as usize].to_string(),
+        })
+    }
+
+    fn element_count(&self, entry: u64) -> usize {
+        self.fault(entry).map_or(0, |fault| match &fault.entries {
+            Entries::One(elements) => elements.len(),
+            Entries::Defects(list) => list[entry as usize].element_count(),
+        })
+    }
+
+    fn element(&self, entry: u64, element: u64) -> Option<Element> {
+        let element = usize::try_from(element).ok()?;
+        match &self.fault(entry)?.entries {
+            Entries::One(elements) => elements.get(element).copied(),
+            Entries::Defects(list) => list[entry as usize].element(element),
+        }
     }
 }
 
@@ -136,7 +158,7 @@ pub unsafe extern "C" fn carvel_error_entry_status(
     error: *const carvel_error,
     entry: u64,
 ) -> carvel_status {
-    let get = |report: &Report| report.at(entry).map_or(CARVEL_STATUS_OK, |(status, ..)| status);
+    let get = |report: &Report| report.status(entry).unwrap_or(CARVEL_STATUS_OK);
     // SAFETY: the header's contract.
     unsafe { read(error, CARVEL_STATUS_OK, get) }
 }
@@ -147,7 +169,7 @@ pub unsafe extern "C" fn carvel_error_entry_message(
     entry: u64,
 ) -> *const c_char {
     // SAFETY: the header's contract.
-    let text = unsafe { read(error, None, |report| report.at(entry).map(|(_, text, _)| text)) };
+    let text = unsafe { read(error, None, |report| report.text(entry)) };
     let handle = error.cast::<Handle<Report>>();
     if text.is_none() || !handle.is_aligned() {
         return c"".as_ptr();
@@ -164,7 +186,7 @@ pub unsafe extern "C" fn carvel_error_entry_message(
 
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carvel_error_element_count(error: *const carvel_error, entry: u64) -> u64 {
-    let get = |report: &Report| report.at(entry).map_or(0, |(.., elements)| elements.len() as u64);
+    let get = |report: &Report| report.element_count(entry) as u64;
     // SAFETY: the header's contract.
     unsafe { read(error, 0, get) }
 }
@@ -175,10 +197,7 @@ pub unsafe extern "C" fn carvel_error_element(
     entry: u64,
     element: u64,
 ) -> carvel_element {
-    let get = |report: &Report| {
-        let (.., elements) = report.at(entry)?;
-        elements.get(usize::try_from(element).ok()?).copied()
-    };
+    let get = |report: &Report| report.element(entry, element);
     // SAFETY: the header's contract.
     unsafe { read(error, None, get) }.map(carvel_element::from).unwrap_or_default()
 }

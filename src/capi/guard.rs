@@ -92,7 +92,8 @@ impl<'a> Call<'a> {
     }
 }
 
-/// Runs the body of a call and reports what came of it.
+/// Runs the body of a call and reports what came of it. An `error` that is
+/// misaligned is answered before anything else happens.
 ///
 /// # Safety
 /// `error` is NULL or an error that no other thread uses now.
@@ -131,6 +132,14 @@ pub(super) fn quietly<R>(work: impl FnOnce() -> R) -> Result<R, Box<dyn Any + Se
     let outcome = catch_unwind(AssertUnwindSafe(work));
     INSIDE.set(before);
     outcome
+}
+
+/// Runs the caller's own code in the middle of a call: its panics are not ours.
+pub(super) fn outside<R>(work: impl FnOnce() -> R) -> R {
+    let before = INSIDE.replace(false);
+    let result = work();
+    INSIDE.set(before);
+    result
 }
 
 /// Makes the panic hook say nothing about threads that are inside a call or

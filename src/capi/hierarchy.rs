@@ -5,7 +5,7 @@ use super::guard::call;
 use super::mesh::Shared;
 use super::object::{destroy, look, object};
 use super::refiner::Precision;
-use super::status::{Fault, Result, carvel_status};
+use super::status::{Result, carvel_status};
 use super::values::{ConstValues, Values};
 use super::versioned::write;
 use super::{carvel_context, carvel_counts, carvel_error, carvel_mesh, carvel_scheme};
@@ -135,10 +135,7 @@ impl Matrix<'_> {
     fn fill(mut self, hierarchy: &Hierarchy, level: u32, stage: usize) -> Result<()> {
         let mut at = 0;
         self.offsets[0] = 0;
-        Ok(hierarchy.each_row::<f64>(level, |of, vertex, row| {
-            if of != stage {
-                return;
-            }
+        Ok(hierarchy.each_row_of::<f64>(level, stage, |vertex, row| {
             if let Some((indices, weights)) = &mut self.entries {
                 for (i, (index, weight)) in (at..).zip(row) {
                     indices[i] = *index;
@@ -153,14 +150,8 @@ impl Matrix<'_> {
 
 /// The number of entries of a stage.
 fn count_entries(hierarchy: &Hierarchy, level: u32, stage: u32) -> Result<u64> {
-    let stages = hierarchy.scheme().passes().len() + 1;
-    if stage as usize >= stages {
-        return Err(Fault::out_of_range(format!("stage {stage}: a step has {stages} stages")));
-    }
     let mut entries = 0;
-    hierarchy.each_row::<f64>(level, |of, _, row| {
-        entries += if of == stage as usize { row.len() as u64 } else { 0 };
-    })?;
+    hierarchy.each_row_of::<f64>(level, stage as usize, |_, row| entries += row.len() as u64)?;
     Ok(entries)
 }
 

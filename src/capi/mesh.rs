@@ -31,7 +31,7 @@ impl Shared {
     }
 }
 
-pub const CARVEL_NON_MANIFOLD_ERROR: i32 = 0;
+pub const CARVEL_NON_MANIFOLD_REFUSE: i32 = 0;
 pub const CARVEL_NON_MANIFOLD_CUT: i32 = 1;
 
 versioned! {
@@ -58,6 +58,10 @@ impl carvel_mesh_desc {
     /// The pointers lead to as many entries as the counts say.
     unsafe fn build(&self, context: &Context) -> Result<Shared> {
         self.check_counts()?;
+        if self.face_sizes.is_null() {
+            // Sizes are made here; what the rest takes is checked when it begins.
+            context.check_memory(4 * self.face_count)?;
+        }
         // SAFETY: the caller's contract.
         let sizes = unsafe { self.sizes()? };
         // SAFETY: the caller's contract.
@@ -150,7 +154,7 @@ impl carvel_mesh_desc {
 
 fn non_manifold(policy: i32) -> Result<NonManifold> {
     match policy {
-        CARVEL_NON_MANIFOLD_ERROR => Ok(NonManifold::Error),
+        CARVEL_NON_MANIFOLD_REFUSE => Ok(NonManifold::Error),
         CARVEL_NON_MANIFOLD_CUT => Ok(NonManifold::Cut),
         other => Err(Fault::out_of_range(format!("there is no non-manifold policy {other}"))),
     }

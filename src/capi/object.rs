@@ -72,12 +72,17 @@ pub(super) unsafe fn borrow<'a, C: Object>(object: *const C) -> Result<&'a Handl
         return Err(fault::<C>(CARVEL_STATUS_MISALIGNED, "is misaligned"));
     };
     if handle.poisoned.load(Ordering::Relaxed) {
-        return Err(fault::<C>(
-            CARVEL_STATUS_POISONED,
-            "was left unusable by a defect of the library, caught in an earlier call",
-        ));
+        return Err(poisoned::<C>());
     }
     Ok(handle)
+}
+
+/// The answer of an object after a defect.
+pub(super) fn poisoned<C: Object>() -> Fault {
+    fault::<C>(
+        CARVEL_STATUS_POISONED,
+        "was left unusable by a defect of the library, caught in an earlier call",
+    )
 }
 
 fn fault<C: Object>(status: carvel_status, what: &str) -> Fault {

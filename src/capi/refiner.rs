@@ -3,21 +3,30 @@
 use super::buffer::{Name, Span, Target, check_overlap, input};
 use super::guard::{Call, call};
 use super::mesh::write_offsets;
-use super::object::{destroy, look, object};
+use super::object::{destroy, look, object, poisoned};
 use super::status::{
-    CARVEL_STATUS_BUSY, CARVEL_STATUS_LENGTH_MISMATCH, CARVEL_STATUS_POISONED, Fault, Result,
-    carvel_status,
+    CARVEL_STATUS_BUSY, CARVEL_STATUS_LENGTH_MISMATCH, Fault, Result, carvel_status,
 };
 use super::values::{ConstValues, Records, Sink, Source, Values, carvel_indices};
-use super::versioned::{init, read, versioned, write};
+use super::versioned::{init, read, versioned, write_field};
 use super::{carvel_context, carvel_error, carvel_mesh, carvel_scheme};
 use crate::base::{Context, Scalar};
 use crate::hierarchy::{Attribute, Output, Prediction, Refiner, Task};
 use crate::mesh::Mesh;
 use crate::scheme::Scheme;
+use std::mem::offset_of;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::{Mutex, MutexGuard, TryLockError};
 
-object!(carvel_refiner, Mutex<Refiners>);
+object!(carvel_refiner, Guarded);
+
+/// The refiners, for one call at a time.
+#[derive(Default)]
+pub(super) struct Guarded {
+    refiners: Mutex<Refiners>,
+    /// Scratch memory held, as of the last call that ended.
+    bytes: AtomicU64,
+}
 
 /// The most attributes that one call refines.
 const MOST_ATTRIBUTES: u64 = 256;
@@ -32,6 +41,12 @@ pub(super) struct Refiners {
 /// A number type of the interface.
 pub(super) trait Precision: Scalar {
     fn refiner(all: &mut Refiners) -> &mut Refiner<Self>;
+}
+
+impl Refiners {
+    fn bytes(&self) -> u64 {
+        self.single.bytes() + self.double.bytes()
+    }
 }
 
 impl Precision for f32 {
@@ -199,8 +214,8 @@ impl<'a, T: Precision> Job<'a, T> {
     unsafe fn check(
         call: &mut Call<'a>,
         context: &Context,
-        input: &RefineInput<T>,
-        output: &RefineOutput<T>,
+        (input, output): (&RefineInput<T>, &RefineOutput<T>),
+        places: [Span; 2],
     ) -> Result<Self> {
         // SAFETY: the caller's contract.
         let (mesh, scheme) =
@@ -210,34 +225,46 @@ impl<'a, T: Precision> Job<'a, T> {
         let plan = Prediction::new(mesh, scheme, input.levels)?;
         plan.check_index_type()?;
         // What no buffer can change comes before the buffers, as the header says.
+        let faces = Faces::of(output, &plan);
         let width: usize = inputs.iter().map(|records| records.width).sum();
-        let sources = !output.face_sources.data.is_null();
-        context.check_memory(plan.refiner_bytes(width as u64, T::BYTES, sources))?;
+        let scratch = plan.refiner_bytes(width as u64, T::BYTES, faces.sources.is_given());
+        context.check_memory(scratch)?;
         // SAFETY: the caller's contract.
         let outputs = unsafe { output.check(plan.last().vertices, &inputs)? };
-        let faces = Faces::of(output, &plan);
         let job = Self { mesh, scheme, plan, inputs, outputs, faces };
-        job.check_overlap()?;
-        context.check_memory(job.bytes())?;
+        job.check_overlap(places, input, output)?;
+        context.check_memory(scratch.saturating_add(job.copy_bytes()))?;
         Ok(job)
     }
 
-    fn check_overlap(&self) -> Result<()> {
-        let mut spans = Vec::with_capacity(4 + self.inputs.len() + self.outputs.len());
+    /// Refuses outputs that overlap anything of the call.
+    fn check_overlap(
+        &self,
+        places: [Span; 2],
+        input: &RefineInput<T>,
+        output: &RefineOutput<T>,
+    ) -> Result<()> {
+        // Both lists have one entry for each attribute.
+        let count = self.inputs.len() - 1;
+        let (read, written) = (size_of::<ConstValues<T>>(), size_of::<Values<T>>());
+        let lists = [
+            Span::of(input.attributes, count * read, false, "input.attributes"),
+            Span::of(output.attributes, count * written, false, "output.attributes"),
+        ];
+        let values = self.inputs.len() + self.outputs.len();
+        let mut spans = Vec::with_capacity(values + 8);
+        spans.extend(places.into_iter().chain(lists));
         self.faces.add_spans(&mut spans)?;
         spans.extend(self.inputs.iter().map(Records::read_span));
         spans.extend(self.outputs.iter().map(Records::write_span));
         check_overlap(&spans)
     }
 
-    /// Bytes that the call allocates.
-    fn bytes(&self) -> u64 {
-        let width: usize = self.inputs.iter().map(|records| records.width).sum();
-        let sources = self.faces.sources.is_given();
-        let scratch = self.plan.refiner_bytes(width as u64, T::BYTES, sources);
+    /// Bytes of the copies of records that are not one after the other.
+    fn copy_bytes(&self) -> u64 {
         let read = self.inputs.iter().map(Records::copy_bytes::<T>);
         let written = self.outputs.iter().map(Records::copy_bytes::<T>);
-        read.chain(written).fold(scratch, u64::saturating_add)
+        read.chain(written).fold(0, u64::saturating_add)
     }
 
     /// Refines; returns whether the result is anchored.
@@ -316,7 +343,7 @@ fn lock(refiners: &Mutex<Refiners>) -> Result<MutexGuard<'_, Refiners>> {
         TryLockError::WouldBlock => {
             Fault::new(CARVEL_STATUS_BUSY, "carvel_refiner is at work for another call")
         }
-        TryLockError::Poisoned(_) => Fault::new(CARVEL_STATUS_POISONED, "carvel_refiner"),
+        TryLockError::Poisoned(_) => poisoned::<carvel_refiner>(),
     })
 }
 
@@ -333,23 +360,21 @@ unsafe fn refine<T: Precision>(
         call(error, |call| {
             let refiner = call.object(refiner.cast_const())?;
             let context = call.context(context)?;
-            let (input, mut result) = (read(input)?, read(output)?);
-            let job = Job::check(call, &context, &input, &result)?;
-            let mut refiners = lock(refiner)?;
-            let anchored = job.run(&context, T::refiner(&mut refiners))?;
-            result.anchored = i32::from(anchored);
-            write(output, &result)
+            let (task, result) = (read(input)?, read(output)?);
+            let places = [
+                Span::of(input, task.struct_size as usize, false, "input"),
+                Span::of(output, result.struct_size as usize, true, "output"),
+            ];
+            let job = Job::check(call, &context, (&task, &result), places)?;
+            let mut refiners = lock(&refiner.refiners)?;
+            let outcome = job.run(&context, T::refiner(&mut refiners));
+            refiner.bytes.store(refiners.bytes(), Ordering::Relaxed);
+            let anchored = i32::from(outcome?);
+            let offset = offset_of!(RefineOutput<T>, anchored);
+            write_field(output, result.struct_size, offset, anchored);
+            Ok(())
         })
     }
-}
-
-/// # Safety
-/// The header's contract.
-unsafe fn bytes(refiner: *const carvel_refiner) -> Option<u64> {
-    // SAFETY: the caller's contract.
-    let handle = unsafe { look(refiner)? };
-    let refiners = handle.value.try_lock().ok()?;
-    Some(refiners.single.bytes() + refiners.double.bytes())
 }
 
 #[unsafe(no_mangle)]
@@ -358,7 +383,7 @@ pub unsafe extern "C" fn carvel_refiner_create(
     error: *mut carvel_error,
 ) -> carvel_status {
     // SAFETY: the header's contract.
-    unsafe { call(error, |call| call.create(out, |_| Ok(Mutex::default()))) }
+    unsafe { call(error, |call| call.create(out, |_| Ok(Guarded::default()))) }
 }
 
 #[unsafe(no_mangle)]
@@ -370,7 +395,7 @@ pub unsafe extern "C" fn carvel_refiner_destroy(refiner: *mut carvel_refiner) {
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carvel_refiner_bytes(refiner: *const carvel_refiner) -> u64 {
     // SAFETY: the header's contract.
-    unsafe { bytes(refiner) }.unwrap_or(0)
+    unsafe { look(refiner) }.map_or(0, |handle| handle.value.bytes.load(Ordering::Relaxed))
 }
 
 /// The functions that exist for each number type.

@@ -1,7 +1,7 @@
 //! Version, status codes, and the failures that turn into them.
 
 use crate::base::{Element, Error, ErrorKind};
-use crate::mesh::{Defect, Defects};
+use crate::mesh::{Defect, Defects, summary};
 use std::ffi::{CStr, c_char};
 
 #[unsafe(no_mangle)]
@@ -12,6 +12,16 @@ pub extern "C" fn carvel_version() -> *const c_char {
             Err(_) => panic!("a version has no NUL"),
         };
     VERSION.as_ptr()
+}
+
+#[unsafe(no_mangle)]
+pub extern "C" fn carvel_version_number() -> u32 {
+    const PARTS: [&str; 3] = [
+        env!("CARGO_PKG_VERSION_MAJOR"),
+        env!("CARGO_PKG_VERSION_MINOR"),
+        env!("CARGO_PKG_VERSION_PATCH"),
+    ];
+    PARTS.iter().fold(0, |number, part| 100 * number + part.parse::<u32>().unwrap_or(99))
 }
 
 pub type carvel_status = i32;
@@ -45,7 +55,7 @@ statuses! {
     CARVEL_STATUS_NOT_FINITE = ErrorKind::NotFinite as i32, c"value is not finite";
     CARVEL_STATUS_OVERFLOW = ErrorKind::Overflow as i32, c"value overflows";
     CARVEL_STATUS_PARAMETER_OUT_OF_RANGE = ErrorKind::ParameterOutOfRange as i32, c"parameter out of range";
-    CARVEL_STATUS_INVALID_TEXT = ErrorKind::InvalidText as i32, c"not a number";
+    CARVEL_STATUS_INVALID_NUMBER = ErrorKind::InvalidText as i32, c"not a number";
     CARVEL_STATUS_MEMORY_CEILING = ErrorKind::MemoryCeiling as i32, c"memory ceiling exceeded";
     CARVEL_STATUS_OUT_OF_RESOURCES = ErrorKind::OutOfResources as i32, c"out of memory or threads";
     CARVEL_STATUS_CANCELLED = ErrorKind::Cancelled as i32, c"cancelled";
@@ -113,10 +123,11 @@ impl From<Defects> for Fault {
     fn from(defects: Defects) -> Self {
         match defects {
             Defects::Call(error) => error.into(),
-            Defects::Soup(list) => {
-                let entries = Entries::Defects(list.clone());
-                Self { entries, ..Error::from(Defects::Soup(list)).into() }
-            }
+            Defects::Soup(list) => Self {
+                status: list[0].kind() as carvel_status,
+                message: summary(&list),
+                entries: Entries::Defects(list),
+            },
         }
     }
 }

@@ -77,7 +77,7 @@ impl<T: Scalar> Values<T> {
             ));
         }
         check_capacity(self.count, needed, name)?;
-        let stride = check_records::<T>(self.data, self.count, self.width, self.stride, name)?;
+        let stride = check_records::<T>(self.data, needed, self.width, self.stride, name)?;
         Ok(Records { data: self.data, count: needed as usize, width, stride, name })
     }
 }
@@ -86,10 +86,7 @@ fn check_width(width: u64, name: Name) -> Result<()> {
     if (1..=WIDEST as u64).contains(&width) {
         return Ok(());
     }
-    Err(Fault::new(
-        CARVEL_STATUS_LENGTH_MISMATCH,
-        format!("{name}: the width {width} is not within 1 and {WIDEST}"),
-    ))
+    Err(Fault::out_of_range(format!("{name}: the width {width} is not within 1 and {WIDEST}")))
 }
 
 /// Checks pointer, stride and extent; returns the stride in bytes.

@@ -12,6 +12,28 @@ use super::status::{CARVEL_STATUS_STRUCT_SIZE, Fault, Result};
 pub(super) unsafe trait Versioned: Copy {
     const NAME: &'static str;
     const ENDS: &'static [usize];
+    /// The sizes of its fields, in order.
+    const SIZES: &'static [usize];
+    /// Padding would be taken for a field by a later version, or hold one of an
+    /// earlier: there is none, where pointers have 64 bits.
+    const HAS_NO_PADDING: () = assert!(
+        cfg!(not(target_pointer_width = "64"))
+            || (is_gapless(Self::ENDS, Self::SIZES)
+                && Self::ENDS[Self::ENDS.len() - 1] == size_of::<Self>())
+    );
+}
+
+/// True if each field begins where the one before it ends.
+const fn is_gapless(ends: &[usize], sizes: &[usize]) -> bool {
+    let (mut i, mut end) = (0, 0);
+    while i < ends.len() {
+        end += sizes[i];
+        if end != ends[i] {
+            return false;
+        }
+        i += 1;
+    }
+    true
 }
 
 /// Defines a struct that may grow.
@@ -41,6 +63,7 @@ macro_rules! versioned {
                 size_of::<u32>(),
                 $(std::mem::offset_of!(Self, $field) + size_of::<$type>(),)*
             ];
+            const SIZES: &'static [usize] = &[size_of::<u32>(), $(size_of::<$type>(),)*];
         }
     };
 }
@@ -54,6 +77,7 @@ pub(super) fn initial<S: Versioned>() -> S {
 
 /// Checks a `struct_size`.
 fn check_size<S: Versioned>(size: u32) -> Result<usize> {
+    const { S::HAS_NO_PADDING };
     let known = S::ENDS.contains(&(size as usize)) || size as usize == size_of::<S>();
     if known {
         return Ok(size as usize);
@@ -109,6 +133,23 @@ pub(super) unsafe fn write<S: Versioned>(to: *mut S, value: &S) -> Result<()> {
     // SAFETY: as in `read`; the first field stays what the caller said.
     unsafe { from.add(HEAD).copy_to_nonoverlapping(to.cast::<u8>().add(HEAD), size - HEAD) };
     Ok(())
+}
+
+/// Writes one field of the caller's struct, of the size that it was read with, if
+/// the struct goes that far.
+///
+/// # Safety
+/// The struct can be written, and `offset` is that of a field of this type.
+pub(super) unsafe fn write_field<S: Versioned, F: Copy>(
+    to: *mut S,
+    size: u32,
+    offset: usize,
+    value: F,
+) {
+    if offset + size_of::<F>() <= size as usize {
+        // SAFETY: within the struct; aligned, since the struct is.
+        unsafe { to.byte_add(offset).cast::<F>().write(value) };
+    }
 }
 
 /// Sets the caller's struct to its defaults.

@@ -48,6 +48,7 @@ impl Hierarchy {
         let plan = Prediction::new(&mesh, &scheme, levels)?;
         plan.check_index_type()?;
         context.check_memory(plan.topology_bytes())?;
+        context.report(0.0)?;
         let mut hierarchy = Self { scheme, levels: vec![mesh] };
         for level in 0..levels {
             let split = hierarchy.split(context, level)?;
@@ -105,13 +106,15 @@ impl Hierarchy {
         self.check_level(level)?;
         check(context, "values", values, width, self.levels[0].vertices())?;
         check_length("output", out.len(), width, self.mesh(level).vertices())?;
+        context.report(0.0)?;
         if level == 0 {
             out.copy_from_slice(values);
             return Ok(());
         }
         let plan = Prediction::new(self.mesh(0), &self.scheme, level)?;
         context.check_memory(plan.scratch_bytes(width as u64, T::BYTES))?;
-        for (first, n) in lanes(width) {
+        let steps = (lanes(width).count() as u32 * level) as f64;
+        for (group, (first, n)) in (0_u32..).zip(lanes(width)) {
             let place = Place { attribute: 0, width, first };
             let mut column = Column::new(n);
             for step in 0..level {
@@ -122,6 +125,7 @@ impl Hierarchy {
                 } else {
                     column.finish(context, &rule, step as usize, place, values, out)?;
                 }
+                context.report((group * level + step + 1) as f64 / steps)?;
             }
         }
         check_overflow(context, out, level as usize)
@@ -155,18 +159,42 @@ impl Hierarchy {
         level: u32,
         mut row: impl FnMut(usize, u32, &[(u32, W)]),
     ) -> Result<()> {
+        (0..=self.scheme.passes().len()).try_for_each(|stage| {
+            self.each_row_of(level, stage, |vertex, entries: &[(u32, W)]| {
+                row(stage, vertex, entries);
+            })
+        })
+    }
+
+    /// The rows of one stage of the step from `level − 1` to `level`; see
+    /// [`Hierarchy::each_row`].
+    ///
+    /// # Errors
+    /// [`ErrorKind::ParameterOutOfRange`] for level 0, one that was not built, or a
+    /// stage that the scheme does not have.
+    pub fn each_row_of<W: crate::base::Weight>(
+        &self,
+        level: u32,
+        stage: usize,
+        mut row: impl FnMut(u32, &[(u32, W)]),
+    ) -> Result<()> {
         let split = self.split_to(level)?;
+        let stages = self.scheme.passes().len() + 1;
+        if stage >= stages {
+            return Err(Error::new(
+                ErrorKind::ParameterOutOfRange,
+                format!("stage {stage}: a step has {stages}, counted from 0"),
+            ));
+        }
         let mut rows = SchemeRows::<W>::new(&self.scheme, &split);
         let mut entries = Entries(Vec::new());
-        for stage in 0..=self.scheme.passes().len() {
-            for vertex in 0..split.counts.vertices as u32 {
-                entries.0.clear();
-                match stage.checked_sub(1) {
-                    None => rows.split_row(vertex, &mut entries),
-                    Some(pass) => rows.pass_row(pass, vertex, &mut entries),
-                }
-                row(stage, vertex, &entries.0);
+        for vertex in 0..split.counts.vertices as u32 {
+            entries.0.clear();
+            match stage.checked_sub(1) {
+                None => rows.split_row(vertex, &mut entries),
+                Some(pass) => rows.pass_row(pass, vertex, &mut entries),
             }
+            row(vertex, &entries.0);
         }
         Ok(())
     }

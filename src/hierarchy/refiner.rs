@@ -11,8 +11,8 @@ use super::values::{check, check_length, check_overflow, lanes};
 use crate::base::memory::{resize, zeroed};
 use crate::base::{Context, Error, ErrorKind, Result, Scalar};
 use crate::mesh::Mesh;
-use crate::refine::CornerSplit;
 use crate::refine::adjacency::Recycled;
+use crate::refine::{CornerSplit, Counts};
 use crate::scheme::Scheme;
 
 /// Values on vertices, any number of them per vertex.
@@ -169,6 +169,7 @@ impl<T: Scalar> Refiner<T> {
         output: Output<T>,
     ) -> Result<()> {
         output.check(task, plan)?;
+        context.report(0.0)?;
         let largest = task.check_values(context)?;
         if task.levels == 0 {
             copy(task, output);
@@ -312,14 +313,14 @@ impl<T: Scalar> Run<'_, T> {
             if let Some(mesh) = owned.replace(child) {
                 refiner.levels[level - 1].absorb(mesh);
             }
-            self.progress(level + 1)?;
+            self.progress(level + 1, 0.0)?;
         }
         let parent = owned.as_ref().unwrap_or(self.task.mesh);
         self.last_level(refiner, parent, &places, output)?;
         if let Some(mesh) = owned {
             refiner.levels[last - 1].absorb(mesh);
         }
-        self.progress(last + 1)
+        self.progress(last + 1, 0.0)
     }
 
     /// Faces and values only, straight into the output.
@@ -340,7 +341,9 @@ impl<T: Scalar> Run<'_, T> {
         }
         self.inherit(&mut refiner.face_sources, &split, level, output.face_sources.take())?;
         let step = Step::new(self.task.scheme, &split);
-        for (column, &place) in refiner.columns.iter_mut().zip(places) {
+        let parts = places.len() as f64 + 1.0;
+        for (done, (column, &place)) in refiner.columns.iter_mut().zip(places).enumerate() {
+            self.progress(level, (done as f64 + 1.0) / parts)?;
             let out = match place.attribute.checked_sub(1) {
                 None => &mut *output.positions,
                 Some(i) => &mut *output.attributes[i],
@@ -408,12 +411,12 @@ impl<T: Scalar> Run<'_, T> {
         Ok(())
     }
 
-    /// Reports the part of all vertices that is done.
-    fn progress(&self, level: usize) -> Result<()> {
-        let vertices = |levels: &[crate::refine::Counts]| -> f64 {
-            levels.iter().map(|c| c.vertices as f64).sum()
-        };
+    /// Reports the part of all vertices that is done: those of the levels up to
+    /// one, and a part of the next one's.
+    fn progress(&self, level: usize, part: f64) -> Result<()> {
+        let vertices = |levels: &[Counts]| levels.iter().map(|c| c.vertices as f64).sum::<f64>();
         let all = self.plan.levels();
-        self.context.report(vertices(&all[1..=level]) / vertices(&all[1..]).max(1.0))
+        let next = all.get(level + 1).map_or(0.0, |counts| part * counts.vertices as f64);
+        self.context.report((vertices(&all[1..=level]) + next) / vertices(&all[1..]).max(1.0))
     }
 }

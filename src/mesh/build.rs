@@ -52,6 +52,7 @@ pub fn build(
     indices: &[u32],
     options: &BuildOptions,
 ) -> Result<Built, Defects> {
+    context.check_cancelled()?;
     let offsets = check_sizes(context, vertices, sizes, indices)?;
     let mut defects = face_defects(context, vertices, &offsets, indices)?;
     let soup = Soup::arrange(sizes, &offsets, indices, &defects)?;
@@ -59,7 +60,9 @@ pub fn build(
     let unusable = !defects.is_empty();
     let cutting = options.non_manifold == NonManifold::Cut && !unusable;
     if !cutting {
-        memory::extend(&mut defects, bad.iter().map(|edge| soup.edge_defect(edge)))?;
+        for edge in &bad {
+            memory::extend(&mut defects, [soup.edge_defect(edge)?])?;
+        }
     }
     let mut mesh = soup.into_mesh(vertices, twin)?;
     if let Some(order) = order::breadth_first(&mesh.layout, &mesh.twin)? {
@@ -70,7 +73,7 @@ pub fn build(
     if cutting {
         vertex_source = cut::separate_fans(&mut mesh, &split)?;
     } else {
-        memory::extend(&mut defects, fan_defects(&split, &bad))?;
+        memory::extend(&mut defects, fan_defects(&split, &bad)?)?;
     }
     if !defects.is_empty() {
         return Err(Defects::Soup(defects));
@@ -135,10 +138,12 @@ fn face_defects(
     let faces = offsets.len() - 1;
     let found = context.map(context.chunks(faces), |range| {
         let mut scratch = Vec::new();
-        memory::collect(range.filter_map(|f| {
+        let mut found = Vec::new();
+        for f in range {
             let face = &indices[offsets[f] as usize..offsets[f + 1] as usize];
-            face_defect(f as u64, face, vertices, &mut scratch)
-        }))
+            memory::extend(&mut found, face_defect(f as u64, face, vertices, &mut scratch)?)?;
+        }
+        Ok(found)
     })?;
     concatenated(found)
 }
@@ -149,28 +154,33 @@ fn concatenated<T>(parts: Vec<Result<Vec<T>>>) -> Result<Vec<T>> {
     memory::collect(parts.into_iter().flatten())
 }
 
-fn face_defect(id: u64, face: &[u32], vertices: usize, scratch: &mut Vec<u32>) -> Option<Defect> {
+fn face_defect(
+    id: u64,
+    face: &[u32],
+    vertices: usize,
+    scratch: &mut Vec<u32>,
+) -> Result<Option<Defect>> {
     if face.len() < 3 {
-        return Some(Defect::FaceTooSmall { face: id, size: face.len() as u32 });
+        return Ok(Some(Defect::FaceTooSmall { face: id, size: face.len() as u32 }));
     }
     if let Some(&vertex) = face.iter().find(|&&v| v as usize >= vertices) {
         let (vertex, vertices) = (u64::from(vertex), vertices as u64);
-        return Some(Defect::IndexOutOfRange { face: id, vertex, vertices });
+        return Ok(Some(Defect::IndexOutOfRange { face: id, vertex, vertices }));
     }
-    repeated(face, scratch)
-        .map(|vertex| Defect::RepeatedVertex { face: id, vertex: u64::from(vertex) })
+    let repeated = repeated(face, scratch)?;
+    Ok(repeated.map(|vertex| Defect::RepeatedVertex { face: id, vertex: u64::from(vertex) }))
 }
 
 /// A vertex that occurs twice in a face.
-fn repeated(face: &[u32], scratch: &mut Vec<u32>) -> Option<u32> {
+fn repeated(face: &[u32], scratch: &mut Vec<u32>) -> Result<Option<u32>> {
     const SMALL: usize = 12;
     if face.len() <= SMALL {
-        return (1..face.len()).find(|&i| face[..i].contains(&face[i])).map(|i| face[i]);
+        return Ok((1..face.len()).find(|&i| face[..i].contains(&face[i])).map(|i| face[i]));
     }
     scratch.clear();
-    scratch.extend_from_slice(face);
+    memory::extend(scratch, face.iter().copied())?;
     scratch.sort_unstable();
-    scratch.windows(2).find(|pair| pair[0] == pair[1]).map(|pair| pair[0])
+    Ok(scratch.windows(2).find(|pair| pair[0] == pair[1]).map(|pair| pair[0]))
 }
 
 /// Usable faces in the mesh's order.
@@ -190,8 +200,9 @@ impl Soup {
     ) -> Result<Self> {
         let mut usable = memory::filled(true, sizes.len())?;
         for defect in defects {
-            if let Some(Element::Face(face)) = defect.elements().last() {
-                usable[*face as usize] = false;
+            // The face comes last.
+            if let Some(Element::Face(face)) = defect.element(defect.element_count() - 1) {
+                usable[face as usize] = false;
             }
         }
         let all = || (0..sizes.len()).filter(|&f| usable[f]);
@@ -214,18 +225,18 @@ impl Soup {
     }
 
     /// The defect of a bad edge, in terms of the caller's faces.
-    fn edge_defect(&self, bad: &BadEdge) -> Defect {
+    fn edge_defect(&self, bad: &BadEdge) -> Result<Defect> {
         let face = |&corner: &u32| {
             let face = self.layout.face_of(corner);
             u64::from(self.source.as_ref().map_or(face, |source| source[face as usize]))
         };
         let edge = (u64::from(bad.edge.0), u64::from(bad.edge.1));
-        let mut faces: Vec<u64> = bad.corners.iter().map(face).collect();
+        let mut faces: Vec<u64> = memory::collect(bad.corners.iter().map(face))?;
         faces.sort_unstable();
-        match faces.len() {
+        Ok(match faces.len() {
             2 => Defect::InconsistentOrientation { edge, faces },
             _ => Defect::NonManifoldEdge { edge, faces },
-        }
+        })
     }
 
     fn into_mesh(self, vertices: usize, twin: Vec<u32>) -> Result<Mesh> {
@@ -265,13 +276,11 @@ fn several_fans(context: &Context, mesh: &mut Mesh) -> Result<Vec<u32>> {
 }
 
 /// Vertices with several fans; the ends of bad edges are reported by the edge.
-fn fan_defects<'a>(split: &'a [u32], bad: &[BadEdge]) -> impl Iterator<Item = Defect> + 'a {
-    let mut ends: Vec<u32> = bad.iter().flat_map(|e| [e.edge.0, e.edge.1]).collect();
+fn fan_defects(split: &[u32], bad: &[BadEdge]) -> Result<impl Iterator<Item = Defect>> {
+    let mut ends: Vec<u32> = memory::collect(bad.iter().flat_map(|e| [e.edge.0, e.edge.1]))?;
     ends.sort_unstable();
-    split
-        .iter()
-        .filter(move |v| ends.binary_search(v).is_err())
-        .map(|&v| Defect::NonManifoldVertex { vertex: u64::from(v) })
+    let single = split.iter().filter(move |v| ends.binary_search(v).is_err());
+    Ok(single.map(|&v| Defect::NonManifoldVertex { vertex: u64::from(v) }))
 }
 
 impl Mesh {

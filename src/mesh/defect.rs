@@ -68,18 +68,42 @@ impl Defect {
 
     /// The elements concerned: the vertex or edge first, then the faces.
     pub fn elements(&self) -> Vec<Element> {
+        (0..self.element_count()).filter_map(|i| self.element(i)).collect()
+    }
+
+    /// The number of elements concerned.
+    pub fn element_count(&self) -> usize {
         match self {
-            Self::FaceTooSmall { face, .. } => vec![Element::Face(*face)],
-            Self::IndexOutOfRange { face, vertex, .. } | Self::RepeatedVertex { face, vertex } => {
-                vec![Element::Vertex(*vertex), Element::Face(*face)]
+            Self::FaceTooSmall { .. } | Self::NonManifoldVertex { .. } => 1,
+            Self::IndexOutOfRange { .. } | Self::RepeatedVertex { .. } => 2,
+            Self::InconsistentOrientation { faces, .. } | Self::NonManifoldEdge { faces, .. } => {
+                1 + faces.len()
             }
-            Self::InconsistentOrientation { edge, faces }
-            | Self::NonManifoldEdge { edge, faces } => {
-                let mut elements = vec![Element::Edge(edge.0, edge.1)];
-                elements.extend(faces.iter().map(|&f| Element::Face(f)));
-                elements
+        }
+    }
+
+    /// One of the elements, in the order of [`Self::elements`].
+    pub fn element(&self, i: usize) -> Option<Element> {
+        match (self, i) {
+            (Self::FaceTooSmall { face, .. }, 0)
+            | (Self::IndexOutOfRange { face, .. } | Self::RepeatedVertex { face, .. }, 1) => {
+                Some(Element::Face(*face))
             }
-            Self::NonManifoldVertex { vertex } => vec![Element::Vertex(*vertex)],
+            (
+                Self::IndexOutOfRange { vertex, .. }
+                | Self::RepeatedVertex { vertex, .. }
+                | Self::NonManifoldVertex { vertex },
+                0,
+            ) => Some(Element::Vertex(*vertex)),
+            (
+                Self::InconsistentOrientation { edge, faces }
+                | Self::NonManifoldEdge { edge, faces },
+                i,
+            ) => match i.checked_sub(1) {
+                None => Some(Element::Edge(edge.0, edge.1)),
+                Some(i) => faces.get(i).map(|&face| Element::Face(face)),
+            },
+            _ => None,
         }
     }
 }
@@ -145,11 +169,16 @@ impl From<Defects> for Error {
             Defects::Soup(list) => list,
         };
         let first = &list[0];
-        let more = match list.len() {
-            1 => String::new(),
-            2 => " (1 more defect)".to_owned(),
-            n => format!(" ({} more defects)", n - 1),
-        };
-        Self::new(first.kind(), format!("{first}{more}")).with_elements(first.elements())
+        Self::new(first.kind(), summary(&list)).with_elements(first.elements())
+    }
+}
+
+/// The first of some defects, and how many more there are.
+pub(crate) fn summary(list: &[Defect]) -> String {
+    let first = &list[0];
+    match list.len() {
+        1 => first.to_string(),
+        2 => format!("{first} (1 more defect)"),
+        n => format!("{first} ({} more defects)", n - 1),
     }
 }

@@ -30,6 +30,8 @@ mod survey;
 mod validate;
 
 pub use build::{BuildOptions, Built, NonManifold, build};
+#[cfg(feature = "capi")]
+pub(crate) use defect::summary;
 pub use defect::{Defect, Defects};
 pub(crate) use layout::{Layout, turn_in_quad};
 pub(crate) use near::Near;

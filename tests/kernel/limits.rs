@@ -550,5 +550,5 @@ fn schemes_have_ranges() {
 #[test]
 fn too_many_threads_are_refused() {
     let refused = Context::builder().threads(100_000).build();
-    assert_kind(refused, ErrorKind::OutOfResources);
+    assert_kind(refused, ErrorKind::ParameterOutOfRange);
 }

@@ -157,6 +157,9 @@ static void check_callback_stops(uint32_t threads)
 static void check_all_cancelled(setup *it, const carvel_context *context)
 {
     carvel_hierarchy *whole = hierarchy_of(it->mesh, it->scheme, 1), *hierarchy;
+    poly *nothing = poly_grid(1, 1);
+    carvel_mesh_desc desc;
+    carvel_mesh *mesh;
     carvel_const_values_f64 in;
     carvel_values_f64 out;
     memset(&in, 0, sizeof in);
@@ -167,7 +170,15 @@ static void check_all_cancelled(setup *it, const carvel_context *context)
     CHECK_STATUS(CARVEL_STATUS_CANCELLED, build(it, context, &hierarchy));
     CHECK(hierarchy == NULL);
     CHECK_STATUS(CARVEL_STATUS_CANCELLED,
+                 carvel_hierarchy_create(context, it->mesh, it->scheme, 0, &hierarchy, failure));
+    CHECK_STATUS(CARVEL_STATUS_CANCELLED,
                  carvel_hierarchy_refine_f64(whole, context, 1, &in, &out, failure));
+    CHECK_STATUS(CARVEL_STATUS_CANCELLED,
+                 carvel_hierarchy_refine_f64(whole, context, 0, &in, &out, failure));
+    poly_describe(nothing, &desc);
+    CHECK_STATUS(CARVEL_STATUS_CANCELLED, carvel_mesh_create(context, &desc, &mesh, failure));
+    CHECK(mesh == NULL);
+    poly_free(nothing);
     carvel_hierarchy_destroy(whole);
 }
 
@@ -313,7 +324,7 @@ static void check_thread_limits(void)
     for (i = 0; i < 3; i++) {
         carvel_context *context = (carvel_context *)&desc;
         desc.thread_count = too_many[i];
-        CHECK_STATUS(CARVEL_STATUS_OUT_OF_RESOURCES,
+        CHECK_STATUS(CARVEL_STATUS_PARAMETER_OUT_OF_RANGE,
                      carvel_context_create(&desc, &context, failure));
         CHECK(context == NULL);
     }

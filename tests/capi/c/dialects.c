@@ -94,6 +94,7 @@ int main(void)
     carvel_scheme *scheme;
     check_begin();
     CHECK(strcmp(carvel_version(), CARVEL_VERSION_STRING) == 0);
+    CHECK(carvel_version_number() == CARVEL_VERSION);
     context = make_context(&calls);
     mesh = poly_mesh(cube);
     scheme = scheme_of(CARVEL_SCHEME_THREE_POINT, CARVEL_BOUNDARY_EDGE_AND_CORNER);

@@ -447,9 +447,9 @@ static void check_scheme_values(void)
     SCHEME(OK, THREE_POINT(0, 0));
     SCHEME(OK, THREE_POINT(0, 1));
     SCHEME(OK, THREE_POINT(1, 16));
-    SCHEME(INVALID_TEXT, THREE_POINT(1, 0));
-    SCHEME(INVALID_TEXT, THREE_POINT(INT64_MIN, 1));
-    SCHEME(INVALID_TEXT, THREE_POINT(1, INT64_MIN));
+    SCHEME(INVALID_NUMBER, THREE_POINT(1, 0));
+    SCHEME(INVALID_NUMBER, THREE_POINT(INT64_MIN, 1));
+    SCHEME(INVALID_NUMBER, THREE_POINT(1, INT64_MIN));
     SCHEME(PARAMETER_OUT_OF_RANGE, THREE_POINT(1, 15));
     SCHEME(PARAMETER_OUT_OF_RANGE, THREE_POINT(-1, 1000));
     SCHEME(PARAMETER_OUT_OF_RANGE, THREE_POINT(INT64_MAX, 1));
@@ -466,10 +466,10 @@ static void check_scheme_values(void)
     SCHEME(PARAMETER_OUT_OF_RANGE, (desc.passes = passes, desc.pass_count = 1));
     SCHEME(OK, ONE_PASS(-1000, 1));
     SCHEME(PARAMETER_OUT_OF_RANGE, ONE_PASS(1001, 1));
-    SCHEME(INVALID_TEXT, ONE_PASS(1, 0));
-    SCHEME(INVALID_TEXT, ONE_PASS(0, 0));
-    SCHEME(INVALID_TEXT, ONE_PASS(INT64_MIN, 1));
-    SCHEME(INVALID_TEXT, ONE_PASS(INT64_MIN, INT64_MIN));
+    SCHEME(INVALID_NUMBER, ONE_PASS(1, 0));
+    SCHEME(INVALID_NUMBER, ONE_PASS(0, 0));
+    SCHEME(INVALID_NUMBER, ONE_PASS(INT64_MIN, 1));
+    SCHEME(INVALID_NUMBER, ONE_PASS(INT64_MIN, INT64_MIN));
     SCHEME(PARAMETER_OUT_OF_RANGE, PASSES(passes, 65));
     SCHEME(PARAMETER_OUT_OF_RANGE, PASSES(passes, UINT64_MAX));
 }
@@ -490,7 +490,11 @@ static void check_passes(void)
     REFUSE(MISALIGNED, carvel_scheme_passes(scheme, OFF(carvel_fraction, out), 3, NULL, failure));
     REFUSE(MISALIGNED, carvel_scheme_passes(scheme, out, 3, OFF(uint64_t, &count), failure));
     REFUSE(MISALIGNED, carvel_scheme_passes(scheme, out, 3, NULL, OFF(carvel_error, failure)));
+    REFUSE(NULL_POINTER, carvel_scheme_passes(scheme, NULL, 3, &count, failure));
+    REFUSE(MISALIGNED, carvel_scheme_passes(scheme, OFF(carvel_fraction, out), 3, &count, failure));
     CHECK_UINT(99, count);
+    REFUSE(OVERLAP, carvel_scheme_passes(scheme, out, 3, (uint64_t *)(void *)(out + 1), failure));
+    CHECK(untouched(&room, 0));
     REFUSE(BUFFER_TOO_SMALL, carvel_scheme_passes(scheme, out, 2, &count, failure));
     CHECK_UINT(3, count);
     CHECK(untouched(&room, 0));

@@ -201,9 +201,9 @@ static void TWIN(check_counts)(TWIN(job) *it)
     REFUSED(LENGTH_MISMATCH, it->in.count = UINT64_MAX);
     REFUSED(LENGTH_MISMATCH, it->input.positions.width = 2);
     REFUSED(LENGTH_MISMATCH, it->input.positions.width = 4);
-    REFUSED(LENGTH_MISMATCH, it->in.width = it->out.width = 0);
-    REFUSED(LENGTH_MISMATCH, it->in.width = it->out.width = 65537);
-    REFUSED(LENGTH_MISMATCH, it->in.width = it->out.width = UINT64_MAX);
+    REFUSED(PARAMETER_OUT_OF_RANGE, it->in.width = it->out.width = 0);
+    REFUSED(PARAMETER_OUT_OF_RANGE, it->in.width = it->out.width = 65537);
+    REFUSED(PARAMETER_OUT_OF_RANGE, it->in.width = it->out.width = UINT64_MAX);
     REFUSED(LENGTH_MISMATCH, it->out.width = 1);
     REFUSED(LENGTH_MISMATCH, it->out.width = 3);
     REFUSED(LENGTH_MISMATCH, it->out.width = UINT64_MAX);
@@ -251,6 +251,12 @@ static void TWIN(check_overlap)(TWIN(job) *it)
     REAL *last = it->output.positions.data + 3 * it->counts.vertices - 1;
     REFUSED(OVERLAP, it->output.positions.data = (REAL *)(void *)it->positions);
     REFUSED(OVERLAP, it->out.data = it->attribute);
+    /* The struct that is written to, and what is read. */
+    REFUSED(OVERLAP, it->output.face_sources.data = (uint32_t *)(void *)&it->output.anchored);
+    REFUSED(OVERLAP, it->output.face_sources.data = (uint32_t *)(void *)&it->input.levels);
+    REFUSED(OVERLAP, it->output.face_sources.data = (uint32_t *)(void *)&it->in);
+    REFUSED(OVERLAP, it->output.face_sources.data = (uint32_t *)(void *)&it->out);
+    REFUSED(NULL_POINTER, it->output.face_sources.data = NULL);
     REFUSED(OVERLAP, it->out.data = it->output.positions.data);
     REFUSED(OVERLAP, it->out.data = last);
     REFUSED(OVERLAP, it->input.positions.data = points);
@@ -434,8 +440,8 @@ static void TWIN(check_level_values)(TWIN(job) *it)
     LEVEL_REFUSED(MISALIGNED, it->out.data = OFF(REAL, it->out.data));
     LEVEL_REFUSED(MISALIGNED, it->context = OFF(carvel_context, it->with->context));
     LEVEL_REFUSED(LENGTH_MISMATCH, it->in.count++);
-    LEVEL_REFUSED(LENGTH_MISMATCH, it->in.width = it->out.width = 0);
-    LEVEL_REFUSED(LENGTH_MISMATCH, it->in.width = it->out.width = 65537);
+    LEVEL_REFUSED(PARAMETER_OUT_OF_RANGE, it->in.width = it->out.width = 0);
+    LEVEL_REFUSED(PARAMETER_OUT_OF_RANGE, it->in.width = it->out.width = 65537);
     LEVEL_REFUSED(LENGTH_MISMATCH, it->out.width = 1);
     LEVEL_REFUSED(BUFFER_TOO_SMALL, it->out.count--);
     LEVEL_REFUSED(INVALID_STRIDE, it->in.stride = sizeof(REAL));

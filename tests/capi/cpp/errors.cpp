@@ -79,7 +79,7 @@ static void every_check_is_the_librarys()
     wrong.w = {1, 2};
     CHECK(THROWN(carvel::Scheme::create(wrong)) == CARVEL_STATUS_PARAMETER_OUT_OF_RANGE);
     wrong.w = {1, 0};
-    CHECK(THROWN(carvel::Scheme::create(wrong)) == CARVEL_STATUS_INVALID_TEXT);
+    CHECK(THROWN(carvel::Scheme::create(wrong)) == CARVEL_STATUS_INVALID_NUMBER);
     CHECK(THROWN(carvel::Mesh::create(carvel::Faces::of_size(3, 0, pyramid.corners))) ==
           CARVEL_STATUS_LENGTH_MISMATCH);
     CHECK(THROWN(carvel::Mesh::create(carvel::Faces::of_size(5, 3, pyramid.corners))) ==

@@ -102,7 +102,7 @@ impl Header {
     /// The constants that are no part of the version.
     pub fn enumerators(&self) -> Vec<String> {
         let names = self.constants().map(|(name, _)| name);
-        names.filter(|name| !name.starts_with("CARVEL_VERSION_")).collect()
+        names.filter(|name| !name.starts_with("CARVEL_VERSION")).collect()
     }
 
     /// The value of a constant, as bindgen writes it.
