@@ -73,6 +73,11 @@ fn threads_share_what_may_be_shared() {
 }
 
 #[test]
+fn a_refiner_at_work_is_busy() {
+    run_with_both("busy", &[]);
+}
+
+#[test]
 fn nothing_grows_in_ten_thousand_rounds() {
     run_with("churn", &[Linkage::Shared], &[]);
 }
