@@ -6,14 +6,17 @@ export LC_ALL=C
 cd "$(dirname "$0")/.."
 out=$1
 profile=$2
+# A command, such as `cargo +nightly`: it is split into words where it is run.
 cargo=${CARGO:-cargo}
+set -f
 mkdir -p "$out"
 rm -f "$out/facts"
 
 # Without the rlib among the crate types rustc does the link-time optimisation that the
 # profile asks for. A target folder of its own, because cargo gives libcarvel.so no hash
 # and any other build of the package would write over it.
-"$cargo" rustc --locked --lib --profile "$profile" --crate-type cdylib,staticlib \
+# shellcheck disable=SC2086
+$cargo rustc --locked --lib --profile "$profile" --crate-type cdylib,staticlib \
     --no-default-features --features capi --target-dir "${CARGO_TARGET_DIR:-target}/packaged" \
     --message-format json-render-diagnostics -- --print native-static-libs \
     >"$out/messages" 2>"$out/log" || { cat "$out/log" >&2; exit 1; }
@@ -28,7 +31,8 @@ if [ -z "$shared" ] || [ -z "$static" ]; then
     exit 1
 fi
 
-version=$("$cargo" pkgid | sed 's/.*[#@]//')
+# shellcheck disable=SC2086
+version=$($cargo pkgid | sed 's/.*[#@]//')
 soname=$(objdump -p "$shared" | sed -n 's/^ *SONAME *//p')
 libs=$(sed -n 's/^note: native-static-libs: *//p' "$out/log" | tail -n 1)
 # The fifth byte of an ELF file is 1 for 32 and 2 for 64 bits.

@@ -8,13 +8,12 @@
 
 use std::fmt::Write as _;
 use std::path::Path;
-use std::process::Command;
 
 use quote::{ToTokens, quote};
 use syn::ItemStruct;
 
 use crate::header::Header;
-use crate::library::Library;
+use crate::library::{Library, rustc};
 use crate::program::{self, Limit, Output};
 
 /// The program's text.
@@ -91,7 +90,7 @@ pub fn compile(header: &Header, library: &Library, directory: &Path) -> Output {
     let file = directory.join("agreement.rs");
     std::fs::write(&file, source(header)).expect("a file to write");
     let dependencies = library.rlib.with_file_name("deps");
-    let mut rustc = Command::new("rustc");
+    let mut rustc = rustc();
     rustc.args(["--edition=2024", "--crate-type=lib", "--emit=metadata"]);
     rustc.arg("--extern").arg(format!("carvel={}", library.rlib.display()));
     rustc.arg("-L").arg(format!("dependency={}", dependencies.display()));

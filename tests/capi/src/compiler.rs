@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::OnceLock;
 
-use crate::library::{Library, native_libraries};
+use crate::library::{Library, native_libraries, rustc};
 use crate::program::{self, Limit};
 use crate::{c_directory, root, work_directory};
 
@@ -105,7 +105,7 @@ fn link_arguments(library: &Library, linkage: Linkage) -> Vec<String> {
 pub fn host() -> &'static str {
     static HOST: OnceLock<String> = OnceLock::new();
     HOST.get_or_init(|| {
-        let out = program::run(Command::new("rustc").arg("-vV"), Limit::TOOL);
+        let out = program::run(rustc().arg("-vV"), Limit::TOOL);
         let line = out.stdout.lines().find_map(|l| l.strip_prefix("host: "));
         line.unwrap_or_else(|| panic!("rustc names no host:\n{}", out.stdout)).to_owned()
     })

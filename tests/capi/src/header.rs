@@ -15,9 +15,32 @@ pub struct Header {
     items: Vec<Item>,
 }
 
-/// The text of the header.
+/// The text of the C header.
 pub fn text() -> String {
-    std::fs::read_to_string(root().join("include/carvel.h")).expect("the header")
+    text_of("carvel.h")
+}
+
+fn text_of(name: &str) -> String {
+    let path = root().join("include").join(name);
+    std::fs::read_to_string(&path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
+}
+
+/// The example of a header's overview, without the comment around it.
+///
+/// # Panics
+/// If there is none.
+pub fn example(name: &str) -> String {
+    let (text, first) = (text_of(name), format!("  #include <{name}>"));
+    let lines = text.lines().skip_while(|line| !line.contains(&first));
+    let mut example = String::new();
+    for line in lines.map(|l| l.trim_start_matches(" *").strip_prefix("   ").unwrap_or("")) {
+        example.push_str(line);
+        example.push('\n');
+        if line == "}" {
+            return example;
+        }
+    }
+    panic!("{name} has no example");
 }
 
 impl Header {

@@ -9,6 +9,8 @@ pub mod header;
 pub mod library;
 pub mod program;
 pub mod sources;
+pub mod stage;
+pub mod version;
 
 use std::path::{Path, PathBuf};
 

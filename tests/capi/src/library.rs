@@ -1,5 +1,6 @@
 //! Builds the library once per process, and lays it out as an installation does.
 
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::sync::OnceLock;
@@ -33,6 +34,11 @@ pub fn library() -> &'static Library {
     })
 }
 
+/// The compiler that builds the library.
+pub fn rustc() -> Command {
+    Command::new(std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into()))
+}
+
 /// What a Rust static library needs from the system, as the compiler tells.
 pub fn native_libraries() -> &'static [String] {
     static NATIVE: OnceLock<Vec<String>> = OnceLock::new();
@@ -44,8 +50,7 @@ pub fn native_libraries() -> &'static [String] {
         let source = directory.join("empty.rs");
         std::fs::write(&source, "").expect("a place for an empty crate");
         let args = ["--crate-type=staticlib", "--print=native-static-libs", "--out-dir"];
-        let mut command = Command::new("rustc");
-        let out = program::run(command.args(args).arg(&directory).arg(source), Limit::BUILD);
+        let out = program::run(rustc().args(args).arg(&directory).arg(source), Limit::BUILD);
         let line = out.stderr.lines().find_map(|l| l.split("native-static-libs: ").nth(1));
         let line = line.unwrap_or_else(|| panic!("rustc names no libraries:\n{}", out.stderr));
         line.split_whitespace().map(str::to_owned).collect()
@@ -106,9 +111,21 @@ fn link(file: &Path, at: &Path) {
 
 /// The name that a shared library gives itself.
 pub fn soname(shared: &Path) -> String {
-    let out = program::run(Command::new("readelf").arg("-d").arg(shared), Limit::TOOL);
-    let line = out.stdout.lines().find(|l| l.contains("(SONAME)"));
-    let line = line.unwrap_or_else(|| panic!("{} has no soname", shared.display()));
-    let name = line.split(['[', ']']).nth(1);
-    name.unwrap_or_else(|| panic!("an odd line of readelf: {line}")).to_owned()
+    let mut names = dynamic(shared, "(SONAME)");
+    assert_eq!(names.len(), 1, "{} has not one soname: {names:?}", shared.display());
+    names.swap_remove(0)
+}
+
+/// What a shared library or a program records under a tag: its name, what it needs.
+pub fn dynamic(file: &Path, tag: &str) -> Vec<String> {
+    let table = program::run(Command::new("readelf").arg("-dW").arg(file), Limit::TOOL);
+    let lines = table.stdout.lines().filter(|line| line.contains(tag));
+    lines.filter_map(|line| Some(line.split(['[', ']']).nth(1)?.to_owned())).collect()
+}
+
+/// The names that an `nm` with these arguments finds.
+pub fn symbols(arguments: &[&str], file: &Path) -> BTreeSet<String> {
+    let table = program::run(Command::new("nm").args(arguments).arg(file), Limit::TOOL);
+    let lines = table.stdout.lines();
+    lines.filter_map(|line| Some(line.rsplit_once(' ')?.1.to_owned())).collect()
 }

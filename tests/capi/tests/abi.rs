@@ -6,8 +6,9 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use carvel_capi_tests::header::{self, Header};
-use carvel_capi_tests::library::{Library, library};
+use carvel_capi_tests::library::{Library, library, symbols};
 use carvel_capi_tests::program::{self, Limit};
+use carvel_capi_tests::version::{series, version};
 use carvel_capi_tests::{agreement, library, root, sources, work_directory};
 
 #[test]
@@ -44,9 +45,14 @@ fn a_dropped_const_is_noticed() {
 #[test]
 fn a_changed_width_is_noticed() {
     assert_refused(
-        "carvel_refiner_bytes(const carvel_refiner *refiner)",
-        "carvel_refiner_bytes(const carvel_refiner *refiner, int x)",
-        "carvel_refiner_bytes",
+        "uint32_t level, carvel_counts *counts,",
+        "uint64_t level, carvel_counts *counts,",
+        "carvel_hierarchy_counts",
+    );
+    assert_refused(
+        "uint32_t carvel_hierarchy_last_level(",
+        "uint64_t carvel_hierarchy_last_level(",
+        "carvel_hierarchy_last_level",
     );
     assert_refused("uint32_t thread_count;", "uint64_t thread_count;", "carvel_context_desc");
     assert_refused("typedef int32_t carvel_status;", "typedef int64_t carvel_status;", "i64");
@@ -86,10 +92,7 @@ fn the_library_has_no_constants_of_its_own() {
 
 /// The functions that a shared library exports.
 fn exports(shared: &Path) -> BTreeSet<String> {
-    let mut nm = Command::new("nm");
-    nm.args(["--dynamic", "--defined-only", "--format=posix"]).arg(shared);
-    let out = program::run(&mut nm, Limit::TOOL);
-    out.stdout.lines().filter_map(|l| l.split(' ').next()).map(str::to_owned).collect()
+    symbols(&["--dynamic", "--defined-only"], shared)
 }
 
 #[test]
@@ -128,15 +131,13 @@ fn the_versions_agree() {
     let header = Header::read(&header::text());
     let number = |name: &str| header.constant(&format!("CARVEL_VERSION_{name}"));
     let parts = [number("MAJOR"), number("MINOR"), number("PATCH")].join(".");
-    let cargo = std::fs::read_to_string(root().join("Cargo.toml")).expect("the manifest");
-    let line = cargo.lines().find_map(|line| line.strip_prefix("version = ")).expect("a version");
-    assert_eq!(format!("\"{parts}\""), line);
+    assert_eq!(parts, version());
     assert_eq!(number("STRING"), format!("b\"{parts}\\0\""));
 }
 
 /// The recorded interface of this series of versions.
 fn recorded() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("abi/carvel-0.1.abi")
+    root().join(format!("tests/capi/abi/carvel-{}.abi", series()))
 }
 
 /// The library with all of its debug information: a stripped one compares as

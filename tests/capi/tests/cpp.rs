@@ -1,10 +1,10 @@
 //! The C++ interface: programs with g++ and clang++, with both libraries.
 
-use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use carvel_capi_tests::compiler::{Compiler, Linkage};
+use carvel_capi_tests::header;
 use carvel_capi_tests::library::library;
 use carvel_capi_tests::program::{self, Limit};
 use carvel_capi_tests::{root, work_directory};
@@ -149,25 +149,11 @@ fn unusable_layouts_are_refused_by_the_compiler() {
     }
 }
 
-/// The example of the header's overview, without the comment around it.
-fn header_example() -> String {
-    let header = std::fs::read_to_string(root().join("include/carvel.hpp")).expect("the header");
-    let lines = header.lines().skip_while(|l| !l.contains("  #include <carvel.hpp>"));
-    let mut example = String::new();
-    for line in lines.map(|l| l.trim_start_matches(" *").strip_prefix("   ").unwrap_or("")) {
-        writeln!(example, "{line}").expect("a string takes all");
-        if line == "}" {
-            return example;
-        }
-    }
-    panic!("the header has no example");
-}
-
 #[test]
 fn the_headers_example_runs() {
     let directory = work_directory("cpp example");
     let source = directory.join("pyramid.cpp");
-    std::fs::write(&source, header_example()).expect("a place for the example");
+    std::fs::write(&source, header::example("carvel.hpp")).expect("a place for the example");
     let compiler = compiler("g++", "c++17", &[]);
     let object = compiler.compile(&source, &directory);
     let mut program = Command::new(compiler.link(&[object], library(), Linkage::Shared));

@@ -1,20 +1,13 @@
 //! The programs of examples/, built against an installed library as their
 //! comments and their `CMakeLists.txt` say, and run.
 
-// This file uses a part of what the installation tests share.
-#[allow(dead_code)]
-mod support {
-    pub mod command;
-    pub mod stage;
-}
-
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use carvel_capi_tests::program::{self, Limit, printed};
 use carvel_capi_tests::root;
-use support::command::{command, run};
-use support::stage::Stage;
+use carvel_capi_tests::stage::Stage;
 
 const C: [&str; 5] = ["refine", "animate", "errors", "cancel", "threads"];
 const CXX: [&str; 4] = ["refine", "animate", "errors", "openmesh"];
@@ -30,13 +23,13 @@ impl Installed {
     fn new() -> Self {
         let stage = Stage::new("not used", &[]);
         let prefix = stage.plain.path().join("carvel");
-        run(stage.make("install").arg(format!("PREFIX={}", prefix.display())));
+        printed(stage.make("install").arg(format!("PREFIX={}", prefix.display())));
         Self { stage, prefix }
     }
 
     /// A program that was linked with it.
     fn example(&self, program: &Path) -> Command {
-        let mut example = command(program);
+        let mut example = Command::new(program);
         example.env("LD_LIBRARY_PATH", self.prefix.join("lib"));
         example
     }
@@ -72,19 +65,19 @@ fn build_as_told(carvel: &Installed, language: &str, name: &str) -> PathBuf {
     let strict = "-Wall -Wextra -Wpedantic -Wconversion -Wshadow -Werror";
     let script = line.replacen(' ', &format!(" {strict} "), 1);
     let script = script.replace(&format!(" -o {name}"), &format!(" -o \"$1/{name}\""));
-    let mut shell = command("sh");
+    let mut shell = Command::new("sh");
     shell.args(["-ec", &script, "sh"]).arg(&room).current_dir(sources(language));
-    run(shell.env("PKG_CONFIG_PATH", carvel.prefix.join("lib/pkgconfig")));
+    printed(shell.env("PKG_CONFIG_PATH", carvel.prefix.join("lib/pkgconfig")));
     room.join(name)
 }
 
 fn build_with_cmake(carvel: &Installed, language: &str) -> PathBuf {
     let build = carvel.room(language);
-    let mut cmake = command("cmake");
+    let mut cmake = Command::new("cmake");
     cmake.arg("-S").arg(sources(language)).arg("-B").arg(&build);
     cmake.arg(format!("-DCMAKE_PREFIX_PATH={}", carvel.prefix.display()));
-    run(cmake.arg("-DCMAKE_C_FLAGS=-Wall -Werror").arg("-DCMAKE_CXX_FLAGS=-Wall -Werror"));
-    run(command("cmake").arg("--build").arg(&build).arg("--parallel=2"));
+    printed(cmake.arg("-DCMAKE_C_FLAGS=-Wall -Werror").arg("-DCMAKE_CXX_FLAGS=-Wall -Werror"));
+    printed(Command::new("cmake").arg("--build").arg(&build).arg("--parallel=2"));
     build
 }
 
@@ -94,14 +87,14 @@ fn check(carvel: &Installed, program: &Path) {
     if name == "openmesh" {
         return check_openmesh(carvel, program);
     }
-    let said = run(&mut carvel.example(program));
+    let said = printed(&mut carvel.example(program));
     let lines: Vec<&str> = said.lines().collect();
     match name {
         "refine" => {
             let count = |start| lines.iter().filter(|line| line.starts_with(start)).count();
             // V + E + F of 10, 15, 7 is 32; of 30, 60, 32 it is 122.
             assert_eq!((count("v "), count("f "), lines.len()), (120, 122, 242));
-            let further = run(carvel.example(program).arg("3"));
+            let further = printed(carvel.example(program).arg("3"));
             assert_eq!(further.lines().filter(|line| line.starts_with("f ")).count(), 482);
         }
         "animate" => {
@@ -128,7 +121,7 @@ fn check_openmesh(carvel: &Installed, program: &Path) {
     let cow = root().join("assets/spot/spot_control_mesh.obj");
     for (extension, faces) in [("off", "11714"), ("obj", "11714")] {
         let out = program.with_extension(extension);
-        let said = run(carvel.example(program).arg(&cow).arg(&out).arg("3"));
+        let said = printed(carvel.example(program).arg(&cow).arg(&out).arg("3"));
         assert_eq!(said, format!("180 faces became {faces}"));
         let text = fs::read_to_string(&out).expect("the refined cow");
         let written = match extension {
@@ -137,7 +130,8 @@ fn check_openmesh(carvel: &Installed, program: &Path) {
         };
         assert_eq!(written, Some(true), "{}", out.display());
     }
-    let output = support::command::output(carvel.example(program).args(["missing.off", "out.off"]));
+    let mut missing = carvel.example(program);
+    let output = program::attempt(missing.args(["missing.off", "out.off"]), Limit::PROGRAM);
     assert_eq!(output.status.code(), Some(1));
 }
 

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use carvel_capi_tests::compiler::{Compiler, Linkage};
+use carvel_capi_tests::header;
 use carvel_capi_tests::library::library;
 use carvel_capi_tests::program::{self, Limit};
 use carvel_capi_tests::{root, sources, work_directory};
@@ -72,6 +73,11 @@ fn threads_share_what_may_be_shared() {
 }
 
 #[test]
+fn a_refiner_at_work_is_busy() {
+    run_with_both("busy", &[]);
+}
+
+#[test]
 fn nothing_grows_in_ten_thousand_rounds() {
     run_with("churn", &[Linkage::Shared], &[]);
 }
@@ -115,26 +121,11 @@ fn clang_takes_every_cxx() {
 
 // -------------------------------------------------------------------- example
 
-/// The example of the header's overview, without the comment around it.
-fn header_example() -> String {
-    let header = std::fs::read_to_string(root().join("include/carvel.h")).expect("the header");
-    let lines = header.lines().skip_while(|l| !l.contains("#include <carvel.h>"));
-    let lines = lines.map(|l| l.trim_start_matches(" *").strip_prefix("   ").unwrap_or(""));
-    let mut example = String::new();
-    for line in lines {
-        writeln!(example, "{line}").expect("a string takes all");
-        if line == "}" {
-            return example;
-        }
-    }
-    panic!("the header has no example");
-}
-
 #[test]
 fn the_headers_example_runs() {
     let directory = work_directory("example");
     let source = directory.join("pyramid.c");
-    std::fs::write(&source, header_example()).expect("a place for the example");
+    std::fs::write(&source, header::example("carvel.h")).expect("a place for the example");
     // The pages' own warnings, but for the habits that examples may have.
     let compiler = Compiler::new("gcc", "c99", &["-Wno-conversion"]);
     let object = compiler.compile(&source, &directory);

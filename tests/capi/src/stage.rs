@@ -8,14 +8,11 @@ use std::sync::OnceLock;
 
 use tempfile::TempDir;
 
-use super::command::{command, run};
-
-/// The folder of the C sources.
-pub fn sources() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("c")
-}
+use crate::program::{self, Limit, printed};
+use crate::{c_directory, root, work_directory};
 
 /// A stage, removed when it is dropped.
+#[derive(Debug)]
 pub struct Stage {
     /// Room for the tests beside the stage.
     pub room: TempDir,
@@ -42,7 +39,7 @@ impl Stage {
     /// With everything installed.
     pub fn installed(prefix: &str, more: &[(&'static str, &str)]) -> Self {
         let stage = Self::new(prefix, more);
-        run(&mut stage.make("install"));
+        printed(&mut stage.make("install"));
         stage
     }
 
@@ -73,8 +70,13 @@ impl Stage {
     pub fn program(&self, compiler: &str, source: &str, flags: &str, name: &str) -> String {
         let program = self.room.path().join(name);
         let script = format!("exec {compiler} -Wall -Wextra -Werror \"$1\" -o \"$2\" {flags}");
-        run(command("sh").args(["-c", &script, "sh"]).arg(sources().join(source)).arg(&program));
-        run(command(&program).env("LD_LIBRARY_PATH", self.at("lib")))
+        printed(
+            Command::new("sh")
+                .args(["-c", &script, "sh"])
+                .arg(c_directory().join(source))
+                .arg(&program),
+        );
+        printed(Command::new(&program).env("LD_LIBRARY_PATH", self.at("lib")))
     }
 }
 
@@ -102,16 +104,16 @@ pub fn tree(root: &Path) -> Vec<String> {
 fn make() -> Command {
     static COPY: OnceLock<PathBuf> = OnceLock::new();
     let copy = COPY.get_or_init(|| {
-        let copy = Path::new(env!("CARGO_TARGET_TMPDIR")).join("a copy of carvel");
+        let copy = work_directory("a copy of carvel");
         copy_sources(&copy);
-        run(&mut make_in(&copy, "lib"));
+        program::run(&mut make_in(&copy, "lib"), Limit::BUILD);
         copy
     });
     make_in(copy, "--silent")
 }
 
 fn make_in(copy: &Path, argument: &str) -> Command {
-    let mut make = command("make");
+    let mut make = Command::new("make");
     make.arg("-C").arg(copy).arg(argument).env("CARGO_TARGET_DIR", copy.join("target"));
     let profile = std::env::var("INSTALL_PROFILE").unwrap_or_else(|_| "dev".to_owned());
     make.arg(format!("PROFILE={profile}"));
@@ -121,13 +123,12 @@ fn make_in(copy: &Path, argument: &str) -> Command {
 /// Copies what is built and installed. What has not changed keeps its date, so that a
 /// second run builds nothing.
 fn copy_sources(copy: &Path) {
-    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
     for folder in ["benches", "docs", "include", "packaging", "src", "tests"] {
-        copy_folder(&root.join(folder), &copy.join(folder));
+        copy_folder(&root().join(folder), &copy.join(folder));
     }
     let files = ["Makefile", "Cargo.toml", "Cargo.lock", "build.rs", "README.md"];
     for file in files.into_iter().chain(["LICENSE-APACHE", "LICENSE-MIT"]) {
-        copy_file(&root.join(file), &copy.join(file));
+        copy_file(&root().join(file), &copy.join(file));
     }
 }
 
