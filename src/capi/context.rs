@@ -2,9 +2,9 @@
 
 use super::carvel_error;
 use super::guard::{call, outside};
-use super::object::{destroy, look, object};
+use super::object::{destroy_function, look, object};
 use super::status::carvel_status;
-use super::versioned::{init, read, versioned};
+use super::versioned::{init_function, read, versioned};
 use crate::base::Context;
 use std::ffi::c_void;
 
@@ -54,14 +54,7 @@ fn context(desc: &carvel_context_desc) -> crate::Result<Context> {
     builder.build()
 }
 
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn carvel_context_desc_init(
-    desc: *mut carvel_context_desc,
-    struct_size: u32,
-) -> carvel_status {
-    // SAFETY: the header's contract.
-    unsafe { call(std::ptr::null_mut(), |_| init(desc, struct_size)) }
-}
+init_function!(carvel_context_desc_init, carvel_context_desc);
 
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carvel_context_create(
@@ -73,11 +66,7 @@ pub unsafe extern "C" fn carvel_context_create(
     unsafe { call(error, |call| call.create(out, |_| Ok(context(&read(desc)?)?))) }
 }
 
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn carvel_context_destroy(context: *mut carvel_context) {
-    // SAFETY: the header's contract.
-    unsafe { destroy(context) }
-}
+destroy_function!(carvel_context_destroy, carvel_context);
 
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carvel_context_thread_count(context: *const carvel_context) -> u32 {

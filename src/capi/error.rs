@@ -1,7 +1,7 @@
 //! `carvel_error`: why a call failed.
 
 use super::guard::quietly;
-use super::object::{Handle, Object, destroy, hand_over, look, object};
+use super::object::{Handle, Object, destroy_function, hand_over, look, object};
 use super::status::{CARVEL_STATUS_OK, Entries, Fault, carvel_status};
 use crate::base::Element;
 use std::ffi::{CString, c_char};
@@ -128,11 +128,7 @@ pub unsafe extern "C" fn carvel_error_create(out: *mut *mut carvel_error) -> car
     CARVEL_STATUS_OK
 }
 
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn carvel_error_destroy(error: *mut carvel_error) {
-    // SAFETY: the header's contract.
-    unsafe { destroy(error) }
-}
+destroy_function!(carvel_error_destroy, carvel_error);
 
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carvel_error_status(error: *const carvel_error) -> carvel_status {

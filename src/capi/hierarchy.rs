@@ -3,7 +3,7 @@
 use super::buffer::{Target, check_overlap, check_pointer, output};
 use super::guard::call;
 use super::mesh::Shared;
-use super::object::{destroy, look, object};
+use super::object::{destroy_function, look, object};
 use super::refiner::Precision;
 use super::status::{Result, carvel_status};
 use super::values::{ConstValues, Values};
@@ -176,11 +176,7 @@ pub unsafe extern "C" fn carvel_hierarchy_create(
     }
 }
 
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn carvel_hierarchy_destroy(hierarchy: *mut carvel_hierarchy) {
-    // SAFETY: the header's contract.
-    unsafe { destroy(hierarchy) }
-}
+destroy_function!(carvel_hierarchy_destroy, carvel_hierarchy);
 
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carvel_hierarchy_last_level(hierarchy: *const carvel_hierarchy) -> u32 {

@@ -2,11 +2,11 @@
 
 use super::buffer::{input, list, output};
 use super::guard::{Call, call};
-use super::object::{destroy, object};
+use super::object::{destroy_function, object};
 use super::status::{
     CARVEL_STATUS_LENGTH_MISMATCH, CARVEL_STATUS_TOO_LARGE, Fault, Result, carvel_status,
 };
-use super::versioned::{check, init, initial, read, versioned, write};
+use super::versioned::{check, init_function, initial, read, versioned, write};
 use super::{carvel_context, carvel_error};
 use crate::base::{Context, NONE, memory};
 use crate::mesh::{BuildOptions, Built, Mesh, NonManifold, Survey, build};
@@ -302,14 +302,7 @@ unsafe fn fill<T: Copy>(
     unsafe { call(error, body) }
 }
 
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn carvel_mesh_desc_init(
-    desc: *mut carvel_mesh_desc,
-    struct_size: u32,
-) -> carvel_status {
-    // SAFETY: the header's contract.
-    unsafe { call(std::ptr::null_mut(), |_| init(desc, struct_size)) }
-}
+init_function!(carvel_mesh_desc_init, carvel_mesh_desc);
 
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carvel_mesh_create(
@@ -329,20 +322,9 @@ pub unsafe extern "C" fn carvel_mesh_create(
     }
 }
 
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn carvel_mesh_destroy(mesh: *mut carvel_mesh) {
-    // SAFETY: the header's contract.
-    unsafe { destroy(mesh) }
-}
+destroy_function!(carvel_mesh_destroy, carvel_mesh);
 
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn carvel_counts_init(
-    counts: *mut carvel_counts,
-    struct_size: u32,
-) -> carvel_status {
-    // SAFETY: the header's contract.
-    unsafe { call(std::ptr::null_mut(), |_| init(counts, struct_size)) }
-}
+init_function!(carvel_counts_init, carvel_counts);
 
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carvel_mesh_counts(
@@ -356,14 +338,7 @@ pub unsafe extern "C" fn carvel_mesh_counts(
     }
 }
 
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn carvel_survey_init(
-    survey: *mut carvel_survey,
-    struct_size: u32,
-) -> carvel_status {
-    // SAFETY: the header's contract.
-    unsafe { call(std::ptr::null_mut(), |_| init(survey, struct_size)) }
-}
+init_function!(carvel_survey_init, carvel_survey);
 
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carvel_mesh_survey(
@@ -399,147 +374,49 @@ pub unsafe extern "C" fn carvel_mesh_histogram(
     }
 }
 
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn carvel_mesh_face_sizes(
-    mesh: *const carvel_mesh,
-    out: *mut u32,
-    capacity: u64,
-    error: *mut carvel_error,
-) -> carvel_status {
-    let write = |shared: &Shared, out: &mut [u32]| write_all(shared.mesh.face_sizes(), out);
-    // SAFETY: the header's contract.
-    unsafe { fill(error, mesh, (out, capacity), Mesh::faces, write) }
+/// The functions that fill a caller's array with something of a mesh: name, type of
+/// entries, their number, and what writes them.
+macro_rules! arrays {
+    ($($name:ident: $entry:ty, $needed:expr, $write:expr;)*) => {$(
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $name(
+            mesh: *const carvel_mesh,
+            out: *mut $entry,
+            capacity: u64,
+            error: *mut carvel_error,
+        ) -> carvel_status {
+            // SAFETY: the header's contract.
+            unsafe { fill(error, mesh, (out, capacity), $needed, $write) }
+        }
+    )*};
 }
 
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn carvel_mesh_face_offsets(
-    mesh: *const carvel_mesh,
-    out: *mut u32,
-    capacity: u64,
-    error: *mut carvel_error,
-) -> carvel_status {
-    let write = |shared: &Shared, out: &mut [u32]| write_offsets(shared.mesh.face_sizes(), out);
-    // SAFETY: the header's contract.
-    unsafe { fill(error, mesh, (out, capacity), |mesh| mesh.faces() + 1, write) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn carvel_mesh_face_vertices(
-    mesh: *const carvel_mesh,
-    out: *mut u32,
-    capacity: u64,
-    error: *mut carvel_error,
-) -> carvel_status {
-    let write =
-        |shared: &Shared, out: &mut [u32]| out.copy_from_slice(shared.mesh.corner_vertices());
-    // SAFETY: the header's contract.
-    unsafe { fill(error, mesh, (out, capacity), Mesh::corners, write) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn carvel_mesh_edges(
-    mesh: *const carvel_mesh,
-    out: *mut u32,
-    capacity: u64,
-    error: *mut carvel_error,
-) -> carvel_status {
-    let write =
-        |shared: &Shared, out: &mut [u32]| write_all(shared.mesh.edge_vertices().flatten(), out);
-    // SAFETY: the header's contract.
-    unsafe { fill(error, mesh, (out, capacity), |mesh| 2 * mesh.edges(), write) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn carvel_mesh_corner_edges(
-    mesh: *const carvel_mesh,
-    out: *mut u32,
-    capacity: u64,
-    error: *mut carvel_error,
-) -> carvel_status {
-    let write = |shared: &Shared, out: &mut [u32]| shared.mesh.write_corner_edges(out);
-    // SAFETY: the header's contract.
-    unsafe { fill(error, mesh, (out, capacity), Mesh::corners, write) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn carvel_mesh_corner_twins(
-    mesh: *const carvel_mesh,
-    out: *mut u32,
-    capacity: u64,
-    error: *mut carvel_error,
-) -> carvel_status {
-    let write = |shared: &Shared, out: &mut [u32]| out.copy_from_slice(shared.mesh.corner_twins());
-    // SAFETY: the header's contract.
-    unsafe { fill(error, mesh, (out, capacity), Mesh::corners, write) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn carvel_mesh_valences(
-    mesh: *const carvel_mesh,
-    out: *mut u32,
-    capacity: u64,
-    error: *mut carvel_error,
-) -> carvel_status {
-    let write = |shared: &Shared, out: &mut [u32]| {
-        write_all((0..).map(|v| shared.mesh.valence(v) as u32), out);
-    };
-    // SAFETY: the header's contract.
-    unsafe { fill(error, mesh, (out, capacity), Mesh::vertices, write) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn carvel_mesh_boundary_flags(
-    mesh: *const carvel_mesh,
-    out: *mut u8,
-    capacity: u64,
-    error: *mut carvel_error,
-) -> carvel_status {
-    let write = |shared: &Shared, out: &mut [u8]| {
-        write_all((0..).map(|v| u8::from(shared.mesh.is_boundary_vertex(v))), out);
-    };
-    // SAFETY: the header's contract.
-    unsafe { fill(error, mesh, (out, capacity), Mesh::vertices, write) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn carvel_mesh_face_sources(
-    mesh: *const carvel_mesh,
-    out: *mut u32,
-    capacity: u64,
-    error: *mut carvel_error,
-) -> carvel_status {
-    let write = |shared: &Shared, out: &mut [u32]| {
-        write_all((0..).map(|f| shared.mesh.face_source(f) as u32), out);
-    };
-    // SAFETY: the header's contract.
-    unsafe { fill(error, mesh, (out, capacity), Mesh::faces, write) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn carvel_mesh_vertex_sources(
-    mesh: *const carvel_mesh,
-    out: *mut u32,
-    capacity: u64,
-    error: *mut carvel_error,
-) -> carvel_status {
-    let write = |shared: &Shared, out: &mut [u32]| match &shared.vertex_sources {
-        Some(sources) => out.copy_from_slice(sources),
-        None => write_all(0.., out),
-    };
-    // SAFETY: the header's contract.
-    unsafe { fill(error, mesh, (out, capacity), Mesh::vertices, write) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn carvel_mesh_corner_tags(
-    mesh: *const carvel_mesh,
-    out: *mut u32,
-    capacity: u64,
-    error: *mut carvel_error,
-) -> carvel_status {
-    let write = |shared: &Shared, out: &mut [u32]| out.copy_from_slice(shared.mesh.corner_tags());
-    // SAFETY: the header's contract.
-    unsafe { fill(error, mesh, (out, capacity), |mesh| mesh.corner_tags().len(), write) }
+arrays! {
+    carvel_mesh_face_sizes: u32, Mesh::faces,
+        |shared, out| write_all(shared.mesh.face_sizes(), out);
+    carvel_mesh_face_offsets: u32, |mesh| mesh.faces() + 1,
+        |shared, out| write_offsets(shared.mesh.face_sizes(), out);
+    carvel_mesh_face_vertices: u32, Mesh::corners,
+        |shared, out| out.copy_from_slice(shared.mesh.corner_vertices());
+    carvel_mesh_edges: u32, |mesh| 2 * mesh.edges(),
+        |shared, out| write_all(shared.mesh.edge_vertices().flatten(), out);
+    carvel_mesh_corner_edges: u32, Mesh::corners,
+        |shared, out| shared.mesh.write_corner_edges(out);
+    carvel_mesh_corner_twins: u32, Mesh::corners,
+        |shared, out| out.copy_from_slice(shared.mesh.corner_twins());
+    carvel_mesh_valences: u32, Mesh::vertices,
+        |shared, out| write_all((0..).map(|v| shared.mesh.valence(v) as u32), out);
+    carvel_mesh_boundary_flags: u8, Mesh::vertices,
+        |shared, out| write_all((0..).map(|v| u8::from(shared.mesh.is_boundary_vertex(v))), out);
+    carvel_mesh_face_sources: u32, Mesh::faces,
+        |shared, out| write_all((0..).map(|f| shared.mesh.face_source(f) as u32), out);
+    carvel_mesh_vertex_sources: u32, Mesh::vertices,
+        |shared, out| match &shared.vertex_sources {
+            Some(sources) => out.copy_from_slice(sources),
+            None => write_all(0.., out),
+        };
+    carvel_mesh_corner_tags: u32, |mesh| mesh.corner_tags().len(),
+        |shared, out| out.copy_from_slice(shared.mesh.corner_tags());
 }
 
 #[unsafe(no_mangle)]

@@ -42,6 +42,18 @@ macro_rules! object {
 }
 pub(super) use object;
 
+/// Defines the function that takes an object back.
+macro_rules! destroy_function {
+    ($name:ident, $object:ty) => {
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $name(object: *mut $object) {
+            // SAFETY: the header's contract.
+            unsafe { $crate::capi::object::destroy(object) }
+        }
+    };
+}
+pub(super) use destroy_function;
+
 /// Hands a new object over to the caller.
 pub(super) fn hand_over<C: Object>(value: C::Inner) -> *mut C {
     Box::into_raw(Box::new(Handle { poisoned: AtomicBool::new(false), value })).cast()

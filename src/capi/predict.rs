@@ -2,7 +2,7 @@
 
 use super::guard::call;
 use super::status::{Fault, Result, carvel_status};
-use super::versioned::{check, init, initial, versioned, write};
+use super::versioned::{check, init_function, initial, versioned, write};
 use super::{carvel_counts, carvel_error, carvel_mesh, carvel_scheme};
 use crate::hierarchy::{Prediction, WIDEST};
 
@@ -36,14 +36,7 @@ impl carvel_bytes {
     }
 }
 
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn carvel_bytes_init(
-    bytes: *mut carvel_bytes,
-    struct_size: u32,
-) -> carvel_status {
-    // SAFETY: the header's contract.
-    unsafe { call(std::ptr::null_mut(), |_| init(bytes, struct_size)) }
-}
+init_function!(carvel_bytes_init, carvel_bytes);
 
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carvel_predict_counts(

@@ -3,12 +3,12 @@
 use super::buffer::{Name, Span, Target, check_overlap, input};
 use super::guard::{Call, call};
 use super::mesh::write_offsets;
-use super::object::{destroy, look, object, poisoned};
+use super::object::{destroy_function, look, object, poisoned};
 use super::status::{
     CARVEL_STATUS_BUSY, CARVEL_STATUS_LENGTH_MISMATCH, Fault, Result, carvel_status,
 };
 use super::values::{ConstValues, Records, Sink, Source, Values, carvel_indices};
-use super::versioned::{init, read, versioned, write_field};
+use super::versioned::{init_function, read, versioned, write_field};
 use super::{carvel_context, carvel_error, carvel_mesh, carvel_scheme};
 use crate::base::{Context, Scalar};
 use crate::hierarchy::{Attribute, Output, Prediction, Refiner, Task};
@@ -386,11 +386,7 @@ pub unsafe extern "C" fn carvel_refiner_create(
     unsafe { call(error, |call| call.create(out, |_| Ok(Guarded::default()))) }
 }
 
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn carvel_refiner_destroy(refiner: *mut carvel_refiner) {
-    // SAFETY: the header's contract.
-    unsafe { destroy(refiner) }
-}
+destroy_function!(carvel_refiner_destroy, carvel_refiner);
 
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carvel_refiner_bytes(refiner: *const carvel_refiner) -> u64 {
@@ -401,23 +397,9 @@ pub unsafe extern "C" fn carvel_refiner_bytes(refiner: *const carvel_refiner) ->
 /// The functions that exist for each number type.
 macro_rules! twins {
     ($number:ty, $init_input:ident, $init_output:ident, $refine:ident) => {
-        #[unsafe(no_mangle)]
-        pub unsafe extern "C" fn $init_input(
-            input: *mut RefineInput<$number>,
-            struct_size: u32,
-        ) -> carvel_status {
-            // SAFETY: the header's contract.
-            unsafe { call(std::ptr::null_mut(), |_| init(input, struct_size)) }
-        }
+        init_function!($init_input, RefineInput<$number>);
 
-        #[unsafe(no_mangle)]
-        pub unsafe extern "C" fn $init_output(
-            output: *mut RefineOutput<$number>,
-            struct_size: u32,
-        ) -> carvel_status {
-            // SAFETY: the header's contract.
-            unsafe { call(std::ptr::null_mut(), |_| init(output, struct_size)) }
-        }
+        init_function!($init_output, RefineOutput<$number>);
 
         #[unsafe(no_mangle)]
         pub unsafe extern "C" fn $refine(

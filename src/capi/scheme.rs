@@ -3,9 +3,9 @@
 use super::buffer::{input, list};
 use super::carvel_error;
 use super::guard::call;
-use super::object::{destroy, object};
+use super::object::{destroy_function, object};
 use super::status::{Fault, Result, carvel_status};
-use super::versioned::{init, read, versioned};
+use super::versioned::{init_function, read, versioned};
 use crate::base::Fraction;
 use crate::scheme::{Boundary, CornerRule, MOST_PASSES, Scheme};
 
@@ -118,14 +118,7 @@ fn boundary(rule: i32) -> Result<Boundary> {
     }
 }
 
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn carvel_scheme_desc_init(
-    desc: *mut carvel_scheme_desc,
-    struct_size: u32,
-) -> carvel_status {
-    // SAFETY: the header's contract.
-    unsafe { call(std::ptr::null_mut(), |_| init(desc, struct_size)) }
-}
+init_function!(carvel_scheme_desc_init, carvel_scheme_desc);
 
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carvel_scheme_create(
@@ -145,11 +138,7 @@ pub unsafe extern "C" fn carvel_scheme_create(
     unsafe { call(error, |call| call.create(out, |_| make())) }
 }
 
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn carvel_scheme_destroy(scheme: *mut carvel_scheme) {
-    // SAFETY: the header's contract.
-    unsafe { destroy(scheme) }
-}
+destroy_function!(carvel_scheme_destroy, carvel_scheme);
 
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carvel_scheme_passes(

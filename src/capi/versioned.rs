@@ -69,6 +69,25 @@ macro_rules! versioned {
 }
 pub(super) use versioned;
 
+/// Defines the function that sets a caller's struct to its defaults.
+macro_rules! init_function {
+    ($name:ident, $type:ty) => {
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $name(
+            value: *mut $type,
+            struct_size: u32,
+        ) -> $crate::capi::carvel_status {
+            let init = |_: &mut _| {
+                // SAFETY: the header's contract.
+                unsafe { $crate::capi::versioned::init(value, struct_size) }
+            };
+            // SAFETY: there is no error.
+            unsafe { $crate::capi::guard::call(std::ptr::null_mut(), init) }
+        }
+    };
+}
+pub(super) use init_function;
+
 /// A struct with every field at its default.
 pub(super) fn initial<S: Versioned>() -> S {
     // SAFETY: all bytes zero is a value, by the trait's contract.
