@@ -6,6 +6,7 @@
 //!
 //! | file | its idea |
 //! |---|---|
+//! | `status` | codes, and the failures that become them |
 //! | `guard` | the border: panics caught, errors filled in, objects poisoned |
 //! | `object` | handles: C's opaque pointers and what is behind them |
 //! | `versioned` | structs that may grow, by `struct_size` |
