@@ -121,6 +121,8 @@ static void end_failing(void)
 /* Everything that calls need, and what they should come to. */
 typedef struct setup {
     poly *control, *shuffled;
+    /* Refused for thousands of edges; for faces that cannot be used as well. */
+    poly *broken, *unusable;
     uint32_t levels;
     carvel_context *context;
     carvel_mesh *mesh, *ordered;
@@ -130,6 +132,9 @@ typedef struct setup {
     /* Room for any array of a call: the test's own memory must not run out. */
     double *room;
 } setup;
+
+/* Faces at one edge of the broken mesh: a list of them alone is a large request. */
+enum { HUB = 4200 };
 
 /* A call: makes what it makes and takes it back; the answer is its status. */
 typedef carvel_status (*call)(setup *it);
@@ -166,6 +171,60 @@ static carvel_status create_shuffled(setup *it)
 {
     carvel_mesh_desc desc;
     poly_describe(it->shuffled, &desc);
+    desc.non_manifold = CARVEL_NON_MANIFOLD_CUT;
+    return build(it, &desc);
+}
+
+/* Everything that the error says of a mesh with so many defects. */
+static void read_defects(void)
+{
+    uint64_t entries = carvel_error_entry_count(failure), entry, element, most = 0;
+    CHECK(entries > 200);
+    for (entry = 0; entry < entries; entry++) {
+        uint64_t elements = carvel_error_element_count(failure, entry);
+        carvel_status status = carvel_error_entry_status(failure, entry);
+        CHECK(status >= CARVEL_STATUS_REPEATED_VERTEX &&
+              status <= CARVEL_STATUS_NON_MANIFOLD_VERTEX);
+        CHECK(carvel_error_entry_message(failure, entry)[0] != '\0');
+        for (element = 0; element < elements; element++)
+            CHECK(carvel_error_element(failure, entry, element).kind != 0);
+        most = elements > most ? elements : most;
+    }
+    /* The edge that all faces of the hub share. */
+    CHECK(most > HUB);
+}
+
+static carvel_status create_broken_mesh(const setup *it, const poly *soup)
+{
+    carvel_mesh *mesh = NULL;
+    carvel_mesh_desc desc;
+    carvel_status status;
+    poly_describe(soup, &desc);
+    status = carvel_mesh_create(it->context, &desc, &mesh, failure);
+    CHECK(mesh == NULL);
+    CHECK_UINT(status, carvel_error_status(failure));
+    if (status != CARVEL_STATUS_OUT_OF_RESOURCES)
+        read_defects();
+    else
+        CHECK_UINT(1, carvel_error_entry_count(failure));
+    return status;
+}
+
+static carvel_status create_broken(setup *it)
+{
+    return create_broken_mesh(it, it->broken);
+}
+
+static carvel_status create_unusable(setup *it)
+{
+    return create_broken_mesh(it, it->unusable);
+}
+
+/* What is refused without it is cut apart. */
+static carvel_status create_cut(setup *it)
+{
+    carvel_mesh_desc desc;
+    poly_describe(it->broken, &desc);
     desc.non_manifold = CARVEL_NON_MANIFOLD_CUT;
     return build(it, &desc);
 }
@@ -279,7 +338,7 @@ static carvel_status validate(setup *it)
 
 /* Calls with one failure at each large request, or with all from there on; the
  * number of requests that were made to fail. */
-static long fail_each(setup *it, call run, int all)
+static long fail_each(setup *it, call run, int all, carvel_status expected)
 {
     long number, before;
     carvel_status status;
@@ -296,23 +355,28 @@ static long fail_each(setup *it, call run, int all)
         if (!CHECK(number < 1000))
             break;
     }
-    CHECK_OK(status);
+    CHECK_STATUS(expected, status);
     /* As good as ever. */
-    CHECK_OK(run(it));
+    CHECK_STATUS(expected, run(it));
     return number - 1;
 }
 
-static void check_call(setup *it, const char *name, call run)
+static void check_answer(setup *it, const char *name, call run, carvel_status expected)
 {
     long once, from;
     check_context(name);
     /* What is made once and kept is made now. */
-    CHECK_OK(run(it));
+    CHECK_STATUS(expected, run(it));
     fprintf(stderr, "%s:", name);
-    once = fail_each(it, run, 0);
-    from = fail_each(it, run, 1);
+    once = fail_each(it, run, 0, expected);
+    from = fail_each(it, run, 1, expected);
     fprintf(stderr, " %ld and %ld failures\n", once, from);
     CHECK_UINT(once, from);
+}
+
+static void check_call(setup *it, const char *name, call run)
+{
+    check_answer(it, name, run, CARVEL_STATUS_OK);
 }
 
 static void check_all(setup *it)
@@ -320,6 +384,9 @@ static void check_all(setup *it)
     check_call(it, "create mesh", create_mesh);
     check_call(it, "create mesh by size", create_mesh_by_size);
     check_call(it, "create shuffled mesh", create_shuffled);
+    check_answer(it, "create broken mesh", create_broken, CARVEL_STATUS_NON_MANIFOLD_EDGE);
+    check_answer(it, "create unusable mesh", create_unusable, CARVEL_STATUS_REPEATED_VERTEX);
+    check_call(it, "cut broken mesh", create_cut);
     check_call(it, "refine", refine);
     check_call(it, "refine again", refine_again);
     check_call(it, "refine strided", refine_strided);
@@ -358,6 +425,41 @@ static poly *shuffle(const poly *grid)
     return it;
 }
 
+/* The grid with every second face reversed and `HUB` triangles at one edge, so that
+ * most edges are defects. Unusable ones: large faces with a repeated vertex as well,
+ * one of them so large that looking at it alone takes much memory. */
+static poly *break_grid(const poly *grid, int unusable)
+{
+    enum { LARGE_FACES = 300, SIZE = 40, HUGE_SIZE = 20000 };
+    uint64_t faces = grid->faces + HUB + (unusable ? LARGE_FACES + 1 : 0), f, k, n = grid->vertices;
+    uint32_t *sizes = TAKE(uint32_t, faces), *size = sizes, *indices, *at;
+    poly *it;
+    at = indices = TAKE(uint32_t, grid->corners + 3 * HUB + LARGE_FACES * SIZE + HUGE_SIZE);
+    for (f = 0; f < grid->faces; f++) {
+        for (k = 0; k < 4; k++)
+            *at++ = grid->indices[4 * f + (f % 2 == 0 ? k : 3 - k)];
+        *size++ = 4;
+    }
+    for (f = 0; f < HUB; f++) {
+        *at++ = 0;
+        *at++ = 1;
+        *at++ = (uint32_t)(2 + f % (n - 2));
+        *size++ = 3;
+    }
+    for (f = 0; unusable && f <= LARGE_FACES; f++) {
+        uint32_t corners = f < LARGE_FACES ? SIZE : HUGE_SIZE;
+        for (k = 0; k + 1 < corners; k++)
+            *at++ = (uint32_t)((f + k) % n);
+        /* The first again. */
+        *at++ = (uint32_t)(f % n);
+        *size++ = corners;
+    }
+    it = poly_of(n, faces, sizes, indices);
+    free(sizes);
+    free(indices);
+    return it;
+}
+
 static carvel_mesh *cut(const poly *it)
 {
     carvel_mesh *mesh = NULL;
@@ -373,6 +475,8 @@ static void setup_take(setup *it, uint32_t side, uint32_t levels)
     it->levels = levels;
     it->control = poly_grid(side, side);
     it->shuffled = shuffle(it->control);
+    it->broken = break_grid(it->control, 0);
+    it->unusable = break_grid(it->control, 1);
     it->mesh = poly_mesh(it->control);
     it->ordered = cut(it->shuffled);
     it->scheme = scheme_of(CARVEL_SCHEME_THREE_POINT, 0);
@@ -392,6 +496,8 @@ static void setup_free(setup *it)
     carvel_scheme_destroy(it->scheme);
     carvel_mesh_destroy(it->ordered);
     carvel_mesh_destroy(it->mesh);
+    poly_free(it->unusable);
+    poly_free(it->broken);
     poly_free(it->shuffled);
     poly_free(it->control);
 }
