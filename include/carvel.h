@@ -88,6 +88,9 @@
  *
  *   cc pyramid.c $(pkg-config --cflags --libs carvel) -o pyramid
  *
+ * Where the loader does not look in the place that carvel is installed in, add
+ * -Wl,-rpath,$(pkg-config --variable=libdir carvel).
+ *
  *
  * The objects
  * ===========
@@ -142,8 +145,20 @@
  *            sets defaults. Zero is the default of every field,
  *            so that a zeroed struct with `struct_size` set is the same. A
  *            smaller size that ends between two fields is read as an older
- *            version: the rest takes its default. A larger one is refused with
- *            CARVEL_STATUS_STRUCT_SIZE: the library is older than the caller.
+ *            version: the rest takes its default (below 16 bytes it is a
+ *            mistake). A larger one is refused with CARVEL_STATUS_STRUCT_SIZE:
+ *            the library is older than the caller.
+ *
+ * Values     live on vertices. Data that differs between the faces of a vertex,
+ *            such as texture coordinates with seams, cannot be refined yet.
+ *
+ * Numbers    Level n has the same vertices and faces, in the same order, from a
+ *            refiner and in a hierarchy, whose meshes tell adjacency and edges.
+ *
+ * Again      To refine a result again, give its faces to carvel_mesh_create with
+ *            carvel_mesh_desc.anchored as carvel_refine_output.anchored says, or
+ *            its boundary is rounded off anew. The surface is the one that more
+ *            levels at once give, numbered otherwise.
  *
  * Threads    A mesh, scheme, hierarchy or context may be used by any number of
  *            threads at once. A refiner serves one call at a time and answers
@@ -163,7 +178,7 @@
  *            that can fail: CARVEL_STATUS_OUT_OF_RESOURCES. Objects of a few
  *            hundred bytes are not, and a process that cannot have those ends.
  *
- * docs/abi.md says what may change from version to version.
+ * docs/abi.md, installed beside the licences, says what may change from version to version.
  */
 #ifndef CARVEL_H
 #define CARVEL_H
@@ -364,8 +379,9 @@ typedef struct carvel_context carvel_context;
  * call; a non-zero answer cancels it, the last one too. carvel_refiner_refine,
  * carvel_hierarchy_create and carvel_hierarchy_refine call it when work begins,
  * after each level, and between the faces and the values of the last; other
- * calls, and the work in between, notice carvel_context_cancel only. Two calls
- * at once on one context call it at once. It must return: throwing a C++ exception or longjmp out of it is
+ * calls, and the work in between, notice carvel_context_cancel only. Calls
+ * that run at the same time with one context report each from its own thread.
+ * It must return: throwing a C++ exception or longjmp out of it is
  * undefined behaviour. It must not call functions with the objects that the
  * running call writes to, nor destroy any that it was given. */
 typedef int32_t (*carvel_progress)(double done, void *user_data);
@@ -376,8 +392,8 @@ typedef struct carvel_context_desc {
     /* Threads to use, at most 1024: 0 for all cores, 1 for the calling thread
      * alone. */
     uint32_t thread_count;
-    /* Bytes that one call may need in all, as predicted before it allocates;
-     * 0 for no ceiling. */
+    /* Bytes that one call may allocate in all, as predicted before it does; the
+     * caller's own buffers are not counted. 0 for no ceiling. */
     uint64_t memory_ceiling;
     /* May be NULL. */
     carvel_progress progress;
@@ -785,8 +801,9 @@ typedef struct carvel_const_values_f64 {
     uint64_t stride;
 } carvel_const_values_f64;
 
-/* Values to write, their layout final too: the same, `count` being the number of records that fit, and
- * `width` that of the input. Bytes between records are left as they are. */
+/* Values to write: the same, but `count` is the number of records that fit, and
+ * `width` is that of the input. Bytes between records are left as they are. The
+ * layouts are final. */
 typedef struct carvel_values_f32 {
     float *data;
     uint64_t count;

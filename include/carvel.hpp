@@ -63,6 +63,10 @@
 #ifndef CARVEL_HPP
 #define CARVEL_HPP
 
+#if !(__cplusplus >= 201703L || (defined(_MSVC_LANG) && _MSVC_LANG >= 201703L))
+#error "carvel.hpp needs C++17; carvel.h does with C++98"
+#endif
+
 #include <carvel.h>
 
 #include <array>

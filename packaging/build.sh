@@ -12,6 +12,7 @@ set -f
 mkdir -p "$out"
 rm -f "$out/facts"
 
+echo "building libcarvel ($profile); what cargo says goes to $out/log"
 # Without the rlib among the crate types rustc does the link-time optimisation that the
 # profile asks for. A target folder of its own, because cargo gives libcarvel.so no hash
 # and any other build of the package would write over it.

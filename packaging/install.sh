@@ -158,7 +158,10 @@ install_all() {
         [ ! -f "$document" ] || put 644 "$document" "$docdir"
     done
     if [ -z "$destdir" ]; then
-        echo "installed in $prefix; run ldconfig if the loader looks in $libdir"
+        echo "installed in $prefix, what exactly is in $sharedir/manifest"
+        echo "where the loader looks in $libdir, run ldconfig; otherwise:"
+        echo "  export PKG_CONFIG_PATH=$libdir/pkgconfig CMAKE_PREFIX_PATH=$prefix"
+        echo "  and link with -Wl,-rpath,$libdir"
     fi
 }
 

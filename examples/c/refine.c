@@ -43,7 +43,8 @@ static void write_obj(const carvel_counts *counts, const carvel_refine_output_f3
 
 int main(int argc, char **argv)
 {
-    const uint32_t levels = argc > 1 ? (uint32_t)strtoul(argv[1], NULL, 10) : 2;
+    char *end = NULL;
+    const unsigned long levels = argc > 1 ? strtoul(argv[1], &end, 10) : 2;
     carvel_error *error = NULL;
     carvel_mesh *mesh = NULL;
     carvel_scheme *scheme = NULL;
@@ -54,6 +55,10 @@ int main(int argc, char **argv)
     carvel_refine_input_f32 input;
     carvel_refine_output_f32 output;
 
+    if (end != NULL && (end == argv[1] || *end != '\0' || levels > 64)) {
+        fprintf(stderr, "'%s' is no number of levels: refine [0-64]\n", argv[1]);
+        return EXIT_FAILURE;
+    }
     carvel_mesh_desc_init(&mesh_desc, sizeof mesh_desc);
     carvel_scheme_desc_init(&scheme_desc, sizeof scheme_desc);
     carvel_counts_init(&counts, sizeof counts);
@@ -79,10 +84,10 @@ int main(int argc, char **argv)
     if (status != CARVEL_STATUS_OK)
         goto done;
 
-    status = carvel_predict_counts(mesh, scheme, levels, &counts, error);
+    status = carvel_predict_counts(mesh, scheme, (uint32_t)levels, &counts, error);
     if (status != CARVEL_STATUS_OK)
         goto done;
-    input.levels = levels;
+    input.levels = (uint32_t)levels;
     input.mesh = mesh;
     input.scheme = scheme;
     input.positions.data = points;

@@ -86,7 +86,7 @@ unsafe fn refine_values<T: Precision>(
     let from = values.check(hierarchy.mesh(0).vertices() as u64, "values".into())?;
     let to = out.check(refined, from.width, "out".into())?;
     check_overlap(&[from.read_span(), to.write_span()])?;
-    let copies = from.copy_bytes::<T>() + to.copy_bytes::<T>();
+    let copies = from.copy_bytes::<T>() + out.copy_bytes(refined);
     if copies > 0 {
         // The refinement itself checks what it needs for values without gaps.
         let plan = Prediction::new(hierarchy.mesh(0), hierarchy.scheme(), level)?;

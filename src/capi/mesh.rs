@@ -287,7 +287,7 @@ unsafe fn fill<T: Copy>(
     error: *mut carvel_error,
     mesh: *const carvel_mesh,
     (out, capacity): (*mut T, u64),
-    needed: impl FnOnce(&Mesh) -> usize,
+    (name, needed): (&'static str, impl FnOnce(&Mesh) -> usize),
     write: impl FnOnce(&Shared, &mut [T]),
 ) -> carvel_status {
     let body = |call: &mut Call| {
@@ -295,7 +295,7 @@ unsafe fn fill<T: Copy>(
         let shared = unsafe { call.object(mesh)? };
         let needed = needed(&shared.mesh) as u64;
         // SAFETY: the header's contract.
-        write(shared, unsafe { output((out, capacity), needed, "out")? });
+        write(shared, unsafe { output((out, capacity), needed, name)? });
         Ok(())
     };
     // SAFETY: the header's contract.
@@ -386,7 +386,7 @@ macro_rules! arrays {
             error: *mut carvel_error,
         ) -> carvel_status {
             // SAFETY: the header's contract.
-            unsafe { fill(error, mesh, (out, capacity), $needed, $write) }
+            unsafe { fill(error, mesh, (out, capacity), (stringify!($name), $needed), $write) }
         }
     )*};
 }

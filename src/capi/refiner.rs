@@ -62,7 +62,7 @@ impl Precision for f64 {
 }
 
 versioned! {
-    pub struct RefineInput<T> {
+    pub struct RefineInput<T> as "carvel_refine_input" {
         pub struct_size: u32,
         pub levels: u32,
         pub mesh: *const carvel_mesh,
@@ -74,7 +74,7 @@ versioned! {
 }
 
 versioned! {
-    pub struct RefineOutput<T> {
+    pub struct RefineOutput<T> as "carvel_refine_output" {
         pub struct_size: u32,
         pub anchored: i32,
         pub face_sizes: carvel_indices,
@@ -127,25 +127,34 @@ impl<T: Scalar> RefineInput<T> {
 }
 
 impl<T: Scalar> RefineOutput<T> {
-    /// Checks all outputs of values.
+    /// The attributes, one for each of the input.
     ///
     /// # Safety
     /// `attributes` leads to as many entries as the count says.
-    unsafe fn check(
-        &self,
-        vertices: u64,
-        inputs: &AllRecords<*const T>,
-    ) -> Result<AllRecords<*mut T>> {
-        let expected = inputs.len() as u64 - 1;
-        if self.attribute_count != expected {
+    unsafe fn attributes<'a>(&self, expected: usize) -> Result<&'a [Values<T>]> {
+        if self.attribute_count != expected as u64 {
             return Err(Fault::new(
                 CARVEL_STATUS_LENGTH_MISMATCH,
-                format!("{} output attributes for {expected} inputs", self.attribute_count),
+                format!("{} output.attributes for {expected} of the input", self.attribute_count),
             ));
         }
         // SAFETY: the caller's contract.
-        let attributes =
-            unsafe { input(self.attributes, self.attribute_count, "output.attributes")? };
+        unsafe { input(self.attributes, self.attribute_count, "output.attributes") }
+    }
+
+    /// Bytes of the copies of records that are not one after the other.
+    fn copies(&self, attributes: &[Values<T>], vertices: u64) -> u64 {
+        let all = std::iter::once(&self.positions).chain(attributes);
+        all.map(|values| values.copy_bytes(vertices)).fold(0, u64::saturating_add)
+    }
+
+    /// Checks all outputs of values.
+    fn check(
+        &self,
+        attributes: &[Values<T>],
+        vertices: u64,
+        inputs: &AllRecords<*const T>,
+    ) -> Result<AllRecords<*mut T>> {
         let mut records = vec![self.positions.check(vertices, 3, "output.positions".into())?];
         for (i, (attribute, from)) in attributes.iter().zip(&inputs[1..]).enumerate() {
             let name = Name { text: "output.attributes", index: Some(i) };
@@ -153,6 +162,11 @@ impl<T: Scalar> RefineOutput<T> {
         }
         Ok(records)
     }
+}
+
+/// Bytes of the copies of records that are not one after the other.
+fn input_copies<T: Scalar>(records: &AllRecords<*const T>) -> u64 {
+    records.iter().map(Records::copy_bytes::<T>).fold(0, u64::saturating_add)
 }
 
 /// The index arrays of an output.
@@ -228,12 +242,14 @@ impl<'a, T: Precision> Job<'a, T> {
         let faces = Faces::of(output, &plan);
         let width: usize = inputs.iter().map(|records| records.width).sum();
         let scratch = plan.refiner_bytes(width as u64, T::BYTES, faces.sources.is_given());
-        context.check_memory(scratch)?;
         // SAFETY: the caller's contract.
-        let outputs = unsafe { output.check(plan.last().vertices, &inputs)? };
+        let attributes = unsafe { output.attributes(inputs.len() - 1)? };
+        let copies = output.copies(attributes, plan.last().vertices);
+        let copies = copies.saturating_add(input_copies(&inputs));
+        context.check_memory(scratch.saturating_add(copies))?;
+        let outputs = output.check(attributes, plan.last().vertices, &inputs)?;
         let job = Self { mesh, scheme, plan, inputs, outputs, faces };
         job.check_overlap(places, input, output)?;
-        context.check_memory(scratch.saturating_add(job.copy_bytes()))?;
         Ok(job)
     }
 
@@ -258,13 +274,6 @@ impl<'a, T: Precision> Job<'a, T> {
         spans.extend(self.inputs.iter().map(Records::read_span));
         spans.extend(self.outputs.iter().map(Records::write_span));
         check_overlap(&spans)
-    }
-
-    /// Bytes of the copies of records that are not one after the other.
-    fn copy_bytes(&self) -> u64 {
-        let read = self.inputs.iter().map(Records::copy_bytes::<T>);
-        let written = self.outputs.iter().map(Records::copy_bytes::<T>);
-        read.chain(written).fold(0, u64::saturating_add)
     }
 
     /// Refines; returns whether the result is anchored.

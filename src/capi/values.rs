@@ -68,6 +68,13 @@ impl<T: Scalar> ConstValues<T> {
 }
 
 impl<T: Scalar> Values<T> {
+    /// Bytes that a copy of `needed` records takes, if they have gaps.
+    pub(super) fn copy_bytes(&self, needed: u64) -> u64 {
+        let record = self.width.saturating_mul(T::BYTES);
+        let has_gaps = self.stride != 0 && self.stride != record;
+        if has_gaps { record.saturating_mul(needed) } else { 0 }
+    }
+
     /// Checks the records of an output that takes `needed` of a width.
     pub(super) fn check(&self, needed: u64, width: usize, name: Name) -> Result<Records<*mut T>> {
         if self.width != width as u64 {

@@ -40,7 +40,7 @@ const fn is_gapless(ends: &[usize], sizes: &[usize]) -> bool {
 macro_rules! versioned {
     (
         $(#[$meta:meta])*
-        pub struct $name:ident $(<$number:ident>)? {
+        pub struct $name:ident $(<$number:ident>)? $(as $c_name:literal)? {
             pub struct_size: u32,
             $(pub $field:ident: $type:ty,)*
         }
@@ -58,7 +58,7 @@ macro_rules! versioned {
         unsafe impl $(<$number: Copy>)? $crate::capi::versioned::Versioned
             for $name $(<$number>)?
         {
-            const NAME: &'static str = stringify!($name);
+            const NAME: &'static str = [$($c_name,)? stringify!($name)][0];
             const ENDS: &'static [usize] = &[
                 size_of::<u32>(),
                 $(std::mem::offset_of!(Self, $field) + size_of::<$type>(),)*
@@ -94,16 +94,25 @@ pub(super) fn initial<S: Versioned>() -> S {
     unsafe { std::mem::zeroed() }
 }
 
+/// What every struct has had from the first: a smaller size is that of a pointer to
+/// it, or was never set.
+const SMALLEST: u32 = 16;
+
 /// Checks a `struct_size`.
 fn check_size<S: Versioned>(size: u32) -> Result<usize> {
     const { S::HAS_NO_PADDING };
     let known = S::ENDS.contains(&(size as usize)) || size as usize == size_of::<S>();
-    if known {
+    if known && size >= SMALLEST {
         return Ok(size as usize);
     }
     Err(Fault::new(
         CARVEL_STATUS_STRUCT_SIZE,
-        format!("{}: struct_size is {size}, this version has {}", S::NAME, size_of::<S>()),
+        format!(
+            "{}: struct_size is {size}, this version has {}; {}_init takes sizeof the struct",
+            S::NAME,
+            size_of::<S>(),
+            S::NAME
+        ),
     ))
 }
 
@@ -204,15 +213,13 @@ mod tests {
     #[test]
     fn a_shorter_struct_is_an_older_version() {
         let fields = |size| read_as(size).map(|d| (d.family, d.corner_rule, d.boundary, d.degree));
-        assert_eq!(fields(4).unwrap(), (0, 0, 0, 0));
-        assert_eq!(fields(8).unwrap(), (3, 0, 0, 0));
         assert_eq!(fields(16).unwrap(), (3, 1, 2, 0));
         assert_eq!(fields(size_of::<carvel_scheme_desc>() as u32).unwrap(), (3, 1, 2, 6));
     }
 
     #[test]
     fn sizes_that_no_version_had_are_refused() {
-        for size in [0, 1, 3, 5, 17, 24, 57, 64, u32::MAX] {
+        for size in [0, 1, 3, 4, 5, 8, 12, 17, 24, 57, 64, u32::MAX] {
             assert_eq!(read_as(size).unwrap_err().status, CARVEL_STATUS_STRUCT_SIZE, "{size}");
         }
     }
@@ -230,19 +237,19 @@ mod tests {
 
     #[test]
     fn a_result_goes_as_far_as_the_struct() {
-        let mut out = carvel_scheme_desc { struct_size: 12, ..initial() };
+        let mut out = carvel_scheme_desc { struct_size: 16, ..initial() };
         // SAFETY: a whole struct is there.
         unsafe { write(&raw mut out, &full()).unwrap() };
-        assert_eq!((out.struct_size, out.family, out.corner_rule), (12, 3, 1));
-        assert_eq!((out.boundary, out.degree), (0, 0));
+        assert_eq!((out.struct_size, out.family, out.corner_rule), (16, 3, 1));
+        assert_eq!((out.boundary, out.degree), (2, 0));
     }
 
     #[test]
     fn init_writes_no_more_than_it_was_told() {
         let mut out = full();
         // SAFETY: a whole struct is there.
-        unsafe { init(&raw mut out, 12).unwrap() };
-        assert_eq!((out.struct_size, out.family, out.corner_rule), (12, 0, 0));
-        assert_eq!((out.boundary, out.degree), (2, 6));
+        unsafe { init(&raw mut out, 16).unwrap() };
+        assert_eq!((out.struct_size, out.family, out.corner_rule), (16, 0, 0));
+        assert_eq!((out.boundary, out.degree), (0, 6));
     }
 }

@@ -68,7 +68,10 @@ impl Prediction {
 
     /// Refuses what does not fit 32-bit indices at any level.
     pub(crate) fn check_index_type(&self) -> Result<()> {
-        self.levels.iter().try_for_each(Counts::check_index_type)
+        let check = |(level, counts): (usize, &Counts)| {
+            counts.check_index_type().map_err(|error| error.in_context(format!("level {level}")))
+        };
+        self.levels.iter().enumerate().try_for_each(check)
     }
 
     /// Scratch memory of a call of a refiner.

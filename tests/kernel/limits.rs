@@ -547,6 +547,34 @@ fn schemes_have_ranges() {
     assert!(Scheme::dual(&[fraction(-1000, 1)]).is_ok());
 }
 
+/// Wide attributes are written a few lanes at a time; the others are not looked at.
+#[test]
+fn what_an_output_held_before_does_not_matter() {
+    let mesh = Mesh::from_polygons(3, &[3], &[0, 1, 2]).expect("a triangle");
+    let (scheme, context) = (Scheme::doo_sabin(), Context::serial());
+    let positions = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0];
+    // So large that every level is watched for overflow.
+    let mut values = [0.0; 15];
+    values[10] = f64::MAX;
+    let attributes = [Attribute { values: &values[..], width: 5 }];
+    let task = Task { attributes: &attributes, ..Task::new(&mesh, &scheme, 1, &positions) };
+    let last = *Prediction::new(&mesh, &scheme, 1).expect("it fits").last();
+    let refined = |held: f64| {
+        let mut out = vec![held; 5 * last.vertices as usize];
+        let mut points = vec![held; 3 * last.vertices as usize];
+        let output = Output {
+            face_sizes: None,
+            face_vertices: None,
+            face_sources: None,
+            positions: &mut points,
+            attributes: vec![&mut out],
+        };
+        Refiner::new().refine_into(&context, &task, output).map(|()| out)
+    };
+    let expected = refined(0.0).expect("no overflow");
+    assert_eq!(refined(f64::NAN).expect("no overflow"), expected);
+}
+
 #[test]
 fn too_many_threads_are_refused() {
     let refused = Context::builder().threads(100_000).build();

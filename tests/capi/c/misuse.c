@@ -91,6 +91,9 @@ static versioned versioned_of(const char *name, carvel_status (*init)(void *, ui
 static int is_end(const versioned *it, size_t size)
 {
     size_t i;
+    /* Less is the size of a pointer, or was never set. */
+    if (size < 16)
+        return 0;
     for (i = 0; i < it->end_count; i++)
         if (it->ends[i] == size)
             return 1;
