@@ -106,7 +106,7 @@
  * given back by its _destroy function; NULL may be destroyed. An object may be
  * destroyed as soon as no call that was given it is running: none keeps a
  * pointer to another one that you have to keep alive, nor to any memory of
- * yours.
+ * yours but a context's `user_data`.
  *
  *
  * What holds for every function
@@ -142,12 +142,12 @@
  *
  * Structs    that may grow start with `struct_size`, the size that the caller
  *            was compiled with, and have an _init function that takes it and
- *            sets defaults. Zero is the default of every field,
- *            so that a zeroed struct with `struct_size` set is the same. A
- *            smaller size that ends between two fields is read as an older
- *            version: the rest takes its default (below 16 bytes it is a
- *            mistake). A larger one is refused with CARVEL_STATUS_STRUCT_SIZE:
- *            the library is older than the caller.
+ *            sets defaults. Zero is the default of every field, so that a
+ *            zeroed struct with `struct_size` set is the same. A smaller size
+ *            that ends between two fields is read as an older version: the rest
+ *            takes its default. One below 16 bytes is a mistake, and a larger
+ *            one means that the library is older than the caller: both are
+ *            refused with CARVEL_STATUS_STRUCT_SIZE.
  *
  * Values     live on vertices. Data that differs between the faces of a vertex,
  *            such as texture coordinates with seams, cannot be refined yet.
@@ -178,7 +178,8 @@
  *            that can fail: CARVEL_STATUS_OUT_OF_RESOURCES. Objects of a few
  *            hundred bytes are not, and a process that cannot have those ends.
  *
- * docs/abi.md, installed beside the licences, says what may change from version to version.
+ * docs/abi.md, installed beside the licences, says what may change from version
+ * to version.
  */
 #ifndef CARVEL_H
 #define CARVEL_H
