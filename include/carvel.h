@@ -927,8 +927,8 @@ CARVEL_API carvel_status carvel_refine_output_f64_init(carvel_refine_output_f64 
  * buffers' content is undefined. Costs O(corners of the last level).
  *
  * TOO_LARGE and MEMORY_CEILING come before BUFFER_TOO_SMALL: a call without
- * buffers tells whether it is worth making them (but for what records with gaps
- * take).
+ * buffers, but with their widths and strides, tells whether it is worth making
+ * them.
  *
  * The result does not depend on threads. A mesh built anew from the faces of a
  * level gives the same surface, numbered otherwise.
