@@ -15,7 +15,6 @@
 
 // Pixels, samples and fixed-point coordinates are bounded by `MAX_SIDE` before
 // any of them is computed; conversions between their types cannot go wrong.
-#![allow(clippy::cast_sign_loss, clippy::cast_possible_wrap)]
 
 mod camera;
 mod color;
