@@ -120,7 +120,7 @@ impl Case {
     }
 
     fn face(&mut self, corners: &[&str]) {
-        self.sizes.push(corners.len() as u32);
+        self.sizes.push(u32::try_from(corners.len()).expect("a small face"));
         for corner in corners {
             let (vertex, uv) = corner.split_once('/').unwrap_or((corner, "0"));
             self.indices.push(from_zero(vertex));
