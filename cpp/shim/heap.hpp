@@ -1,4 +1,4 @@
-// The C library's heap, which both sides allocate from.
+// The C library's heap, which both sides allocate from, and its clock.
 #pragma once
 
 namespace carvel_peers {
@@ -9,5 +9,7 @@ void heap_fresh();
 void heap_keep();
 // Gives back what is free.
 void heap_trim();
+// Processor time of the process, in kernel and user mode.
+double cpu_seconds();
 
 }  // namespace carvel_peers

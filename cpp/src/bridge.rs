@@ -162,5 +162,6 @@ pub(crate) mod ffi {
         fn heap_fresh();
         fn heap_keep();
         fn heap_trim();
+        fn cpu_seconds() -> f64;
     }
 }

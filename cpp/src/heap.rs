@@ -1,4 +1,4 @@
-//! How the C library's heap, which both sides allocate from, treats large arrays.
+//! How the C library's heap, which both sides allocate from, treats large arrays; and its clock.
 
 use crate::bridge::ffi;
 
@@ -19,4 +19,10 @@ pub fn keep() {
 /// Gives free memory back to the system.
 pub fn trim() {
     ffi::heap_trim();
+}
+
+/// Processor time of this process in seconds, page faults included: other programs on
+/// a shared machine do not count.
+pub fn cpu_seconds() -> f64 {
+    ffi::cpu_seconds()
 }

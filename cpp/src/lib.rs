@@ -26,4 +26,5 @@ pub use normalise::Comparison;
 pub use openmesh::OpenMesh;
 pub use opensubdiv::{Level, OpenSubdiv, Refinement, Values};
 pub use peer::{PEERS, Peer, PeerMesh, Precision, Result, Scheme, Task};
+pub use run::Run;
 pub use stencils::Stencils;

@@ -1,5 +1,6 @@
 //! carvel on the same control meshes.
 
+use crate::lineage::Ours;
 use crate::{Boundary, Control, PeerMesh, Precision, Result, Scheme};
 use carvel::{Context, Mesh, Refiner, Task};
 
@@ -23,6 +24,17 @@ pub fn scheme(scheme: Scheme, boundary: Boundary) -> Option<carvel::Scheme> {
 pub fn mesh(control: &Control) -> Result<Mesh> {
     Mesh::from_polygons(control.vertices(), &control.sizes, &control.indices)
         .map_err(|error| error.to_string())
+}
+
+/// The control mesh in carvel's order of faces, and the caller's face for each.
+///
+/// # Errors
+/// What carvel does not take.
+pub fn control(control: &Control) -> Result<(Ours, Vec<u32>)> {
+    let mesh = mesh(control)?;
+    let (sizes, indices) = (mesh.face_sizes().collect(), mesh.corner_vertices().to_vec());
+    let sources = (0..mesh.faces()).map(|face| mesh.face_source(face) as u32).collect();
+    Ok((Ours::control(mesh.vertices(), sizes, indices), sources))
 }
 
 /// carvel's answer to a task without tags, in its own numbering.
