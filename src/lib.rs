@@ -11,7 +11,7 @@ pub mod mesh;
 pub mod refine;
 pub mod scheme;
 
-pub use base::{Context, Element, Error, ErrorKind, Fraction, Result};
+pub use base::{Context, Crease, Element, Error, ErrorKind, Fraction, Result, SharpVertex};
 pub use hierarchy::{Attribute, Hierarchy, Output, Prediction, Refined, Refiner, Task};
 pub use mesh::Mesh;
 pub use scheme::{Boundary, CornerRule, Scheme};

@@ -147,7 +147,7 @@ impl Run<'_> {
             .chunks_exact(3)
             .flat_map(|xyz| (0..width).map(move |lane| xyz[lane % 3]))
             .collect();
-        let attributes = [Attribute { values: &copies, width }];
+        let attributes = [Attribute::vertex(&copies, width)];
         let task = Task {
             mesh: self.mesh,
             scheme: self.scheme,

@@ -18,6 +18,13 @@ pub trait Weight:
     /// cos(2π·j/n). Exact types support the rational cases only (n = 1, 2, 3, 4, 6).
     fn cos_turn(j: usize, n: usize) -> Self;
 
+    /// The weight of a sharpness, which is a number in single precision from 0 to 10.
+    /// Exact types may round to a multiple of 2⁻⁴⁰.
+    fn from_sharpness(sharpness: f32) -> Self {
+        const STEPS: i64 = 1 << 40;
+        Self::ratio((f64::from(sharpness) * STEPS as f64).round() as i64, STEPS)
+    }
+
     /// The weight of an exact parameter.
     fn from_fraction(f: Fraction) -> Self {
         Self::ratio(f.numerator(), f.denominator())
@@ -27,6 +34,10 @@ pub trait Weight:
 impl Weight for f64 {
     fn ratio(num: i64, den: i64) -> Self {
         num as f64 / den as f64
+    }
+
+    fn from_sharpness(sharpness: f32) -> Self {
+        f64::from(sharpness)
     }
 
     fn cos_turn(j: usize, n: usize) -> Self {

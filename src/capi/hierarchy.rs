@@ -37,6 +37,8 @@ impl From<VertexOrigin> for carvel_origin {
             VertexOrigin::EdgeEnd { corner, at_end: false } => (CARVEL_ORIGIN_EDGE_START, corner),
             VertexOrigin::EdgeEnd { corner, at_end: true } => (CARVEL_ORIGIN_EDGE_END, corner),
             VertexOrigin::Vertex(v) => (CARVEL_ORIGIN_VERTEX, v),
+            VertexOrigin::Edge(c) => (CARVEL_ORIGIN_EDGE, c),
+            VertexOrigin::Face(f) => (CARVEL_ORIGIN_FACE, f),
         };
         Self { kind, index }
     }
@@ -48,6 +50,7 @@ impl From<FaceOrigin> for carvel_origin {
             FaceOrigin::Face(f) => (CARVEL_ORIGIN_FACE, f),
             FaceOrigin::Edge(c) => (CARVEL_ORIGIN_EDGE, c),
             FaceOrigin::Vertex(v) => (CARVEL_ORIGIN_VERTEX, v),
+            FaceOrigin::Corner(c) => (CARVEL_ORIGIN_CORNER, c),
         };
         Self { kind, index }
     }

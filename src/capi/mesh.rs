@@ -73,6 +73,7 @@ impl carvel_mesh_desc {
             non_manifold: non_manifold(self.non_manifold)?,
             anchored: flag(self.anchored, "anchored")?,
             corner_tags: tags,
+            ..BuildOptions::default()
         };
         let vertices = self.vertex_count as usize;
         let Built { mesh, vertex_source } = build(context, vertices, &sizes, indices, &options)?;

@@ -332,7 +332,7 @@ impl<'a, T: Precision> Job<'a, T> {
 }
 
 fn attribute<'s, T, P>((source, records): (&'s Source<T>, &Records<P>)) -> Attribute<'s, T> {
-    Attribute { values: source.values(), width: records.width }
+    Attribute::vertex(source.values(), records.width)
 }
 
 /// Offsets from the sizes, which stand in the offsets themselves if there is no

@@ -14,12 +14,12 @@ pub(super) type Value<T, const W: usize> = [T; W];
 
 /// Narrower values are padded with zeros on the way into four lanes.
 #[inline(always)]
-fn widen<T: Scalar, const W: usize>(value: &Value<T, W>) -> T::Lanes {
+pub(super) fn widen<T: Scalar, const W: usize>(value: &Value<T, W>) -> T::Lanes {
     T::lanes(std::array::from_fn(|lane| if lane < W { value[lane] } else { T::default() }))
 }
 
 #[inline(always)]
-fn narrow<T: Scalar, const W: usize>(lanes: T::Lanes) -> Value<T, W> {
+pub(super) fn narrow<T: Scalar, const W: usize>(lanes: T::Lanes) -> Value<T, W> {
     let lanes = T::unlaned(lanes);
     std::array::from_fn(|lane| lanes[lane])
 }

@@ -2,13 +2,13 @@
 
 use super::columns::{Column, Place};
 use super::predict::Prediction;
-use super::step::Step;
+use super::step::{Interpolation, Step};
 use super::values::{check, check_length, check_overflow, lanes};
 use crate::base::memory;
 use crate::base::{Context, Error, ErrorKind, Result, Scalar};
 use crate::mesh::Mesh;
 use crate::refine::adjacency::Recycled;
-use crate::refine::{CornerSplit, FaceOrigin, VertexOrigin};
+use crate::refine::{FaceOrigin, Split, VertexOrigin};
 use crate::scheme::{RowSink, Scheme, SchemeRows};
 use std::sync::Arc;
 
@@ -50,10 +50,14 @@ impl Hierarchy {
         context.check_memory(plan.topology_bytes())?;
         context.report(0.0)?;
         let mut hierarchy = Self { scheme, levels: vec![mesh] };
+        let mut memory = Vec::new();
         for level in 0..levels {
-            let split = hierarchy.split(context, level)?;
-            let anchors = hierarchy.scheme.anchors();
-            let child = split.mesh(context, anchors, &mut Recycled::default())?;
+            let scheme = &hierarchy.scheme;
+            let parent = hierarchy.mesh(level);
+            let holes = scheme.holes(parent)?;
+            let split = hierarchy.split(context, level, &mut memory)?;
+            let child = split.mesh(context, scheme.carried(&holes), &mut Recycled::default())?;
+            split.recycle(&mut memory);
             hierarchy.levels.push(child.into());
             context.report(f64::from(level + 1) / f64::from(levels))?;
         }
@@ -103,6 +107,24 @@ impl Hierarchy {
         width: usize,
         out: &mut [T],
     ) -> Result<()> {
+        self.interpolate(context, level, Interpolation::Vertex, values, width, out)
+    }
+
+    /// The same by rows of choice.
+    ///
+    /// # Errors
+    /// As [`Hierarchy::refine`]; [`ErrorKind::Unsupported`] for varying values under a
+    /// dual scheme.
+    pub fn interpolate<T: Scalar>(
+        &self,
+        context: &Context,
+        level: u32,
+        interpolation: Interpolation,
+        values: &[T],
+        width: usize,
+        out: &mut [T],
+    ) -> Result<()> {
+        self.scheme.check_interpolation(interpolation)?;
         self.check_level(level)?;
         check(context, "values", values, width, self.levels[0].vertices())?;
         check_length("output", out.len(), width, self.mesh(level).vertices())?;
@@ -114,17 +136,19 @@ impl Hierarchy {
         let plan = Prediction::new(self.mesh(0), &self.scheme, level)?;
         context.check_memory(plan.scratch_bytes(width as u64, T::BYTES))?;
         let steps = (lanes(width).count() as u32 * level) as f64;
+        let mut memory = Vec::new();
         for (group, (first, n)) in (0_u32..).zip(lanes(width)) {
             let place = Place { attribute: 0, width, first };
             let mut column = Column::new(n);
             for step in 0..level {
-                let split = self.split(context, step)?;
-                let rule = Step::new(&self.scheme, &split);
+                let split = self.split(context, step, &mut memory)?;
+                let rule = Step::new(&self.scheme, &split, interpolation)?;
                 if step + 1 < level {
                     column.step(context, &rule, step as usize, place, values)?;
                 } else {
                     column.finish(context, &rule, step as usize, place, values, out)?;
                 }
+                split.recycle(&mut memory);
                 context.report((group * level + step + 1) as f64 / steps)?;
             }
         }
@@ -136,8 +160,7 @@ impl Hierarchy {
     /// # Errors
     /// [`ErrorKind::ParameterOutOfRange`] for level 0 or one that was not built.
     pub fn vertex_origins(&self, level: u32) -> Result<Vec<VertexOrigin>> {
-        let split = self.split_to(level)?;
-        memory::collect((0..split.counts.vertices as u32).map(|v| split.vertex_origin(v)))
+        self.split_to(level)?.vertex_origins()
     }
 
     /// The parent elements, at `level − 1`, of the faces of a level.
@@ -145,7 +168,10 @@ impl Hierarchy {
     /// # Errors
     /// [`ErrorKind::ParameterOutOfRange`] for level 0 or one that was not built.
     pub fn face_origins(&self, level: u32) -> Result<Vec<FaceOrigin>> {
-        memory::collect(self.split_to(level)?.face_origins())
+        let split = self.split_to(level)?;
+        let mut origins = memory::reserved(split.counts().faces as usize)?;
+        split.each_face_origin(|_, origin| origins.push(origin));
+        Ok(origins)
     }
 
     /// The rows of the step from `level − 1` to `level`, stage by stage: the
@@ -186,9 +212,9 @@ impl Hierarchy {
                 format!("stage {stage}: a step has {stages}, counted from 0"),
             ));
         }
-        let mut rows = SchemeRows::<W>::new(&self.scheme, &split);
+        let mut rows = SchemeRows::<W>::new(&self.scheme, &split)?;
         let mut entries = Entries(Vec::new());
-        for vertex in 0..split.counts.vertices as u32 {
+        for vertex in 0..split.counts().vertices as u32 {
             entries.0.clear();
             match stage.checked_sub(1) {
                 None => rows.split_row(vertex, &mut entries),
@@ -210,7 +236,7 @@ impl Hierarchy {
     }
 
     /// The split that leads to a level.
-    fn split_to(&self, level: u32) -> Result<CornerSplit<'_>> {
+    fn split_to(&self, level: u32) -> Result<Split<'_>> {
         self.check_level(level)?;
         let before = level.checked_sub(1).ok_or_else(|| {
             Error::new(
@@ -218,12 +244,11 @@ impl Hierarchy {
                 "level 0 is the control mesh, it has no parent",
             )
         })?;
-        self.split(&Context::serial(), before)
+        self.split(&Context::serial(), before, &mut Vec::new())
     }
 
-    fn split(&self, context: &Context, level: u32) -> Result<CornerSplit<'_>> {
-        let mesh = self.mesh(level);
-        CornerSplit::new(context, mesh, self.scheme.anchor(mesh)?)
+    fn split(&self, context: &Context, level: u32, memory: &mut Vec<u32>) -> Result<Split<'_>> {
+        self.scheme.plan(context, self.mesh(level), memory)
     }
 }
 

@@ -4,9 +4,12 @@
 //! the way in and for overflow on the way out.
 
 mod columns;
+mod dual_step;
 mod kernel;
 mod levels;
 mod predict;
+mod primal_kernel;
+mod primal_step;
 mod refiner;
 mod step;
 mod values;
@@ -14,5 +17,6 @@ mod values;
 pub use levels::Hierarchy;
 pub use predict::Prediction;
 pub use refiner::{Attribute, Output, Refined, Refiner, Task};
+pub use step::Interpolation;
 #[cfg(feature = "capi")]
 pub(crate) use values::WIDEST;

@@ -2,8 +2,8 @@
 
 use crate::base::{Error, ErrorKind, Result};
 use crate::mesh::Mesh;
-use crate::refine::Counts;
-use crate::scheme::Scheme;
+use crate::refine::{Counts, PrimalSplit};
+use crate::scheme::{Scheme, SplitKind};
 
 /// The largest number of levels, for meshes that do not grow out of bounds
 /// before: a lone triangle without boundary rule stays one.
@@ -14,6 +14,7 @@ const MOST_LEVELS: u32 = 64;
 pub struct Prediction {
     levels: Vec<Counts>,
     passes: usize,
+    primal: bool,
 }
 
 impl Prediction {
@@ -22,7 +23,7 @@ impl Prediction {
     ///
     /// # Errors
     /// [`ErrorKind::TooLarge`] if a count leaves 64 bits, or for more than 64
-    /// levels.
+    /// levels; as [`Scheme::check`].
     pub fn new(mesh: &Mesh, scheme: &Scheme, levels: u32) -> Result<Self> {
         if levels > MOST_LEVELS {
             return Err(Error::new(
@@ -30,12 +31,14 @@ impl Prediction {
                 format!("{levels} levels: the limit is {MOST_LEVELS}"),
             ));
         }
+        scheme.check(mesh)?;
         let mut counts = vec![Counts::of(mesh)];
         for level in 0..levels {
             let last = counts[level as usize];
-            let next = match level {
-                0 => scheme.anchor(mesh)?.split_counts(mesh),
-                _ => last.plain(),
+            let next = match scheme.split() {
+                SplitKind::Corner if level == 0 => scheme.anchor(mesh)?.split_counts(mesh),
+                SplitKind::Corner => last.plain(),
+                _ => PrimalSplit::split_counts(&last, scheme.pieces()),
             };
             counts.push(next.ok_or_else(|| {
                 Error::new(
@@ -44,7 +47,8 @@ impl Prediction {
                 )
             })?);
         }
-        Ok(Self { levels: counts, passes: scheme.passes().len() })
+        let primal = scheme.split() != SplitKind::Corner;
+        Ok(Self { levels: counts, passes: scheme.passes().len(), primal })
     }
 
     /// The counts of a level.
@@ -116,7 +120,10 @@ impl Prediction {
             _ => stored.unwrap_or(0).saturating_add(last),
         };
         let copies = if width > 7 { last } else { 0 };
-        let parts = [topology, places, values, stages, copies];
+        // Numbers of the edges of the level before the last, and a set of vertices.
+        let edges = inner.last().filter(|_| self.primal);
+        let edges = edges.map_or(0, |c| 4 * u128::from(c.corners) + u128::from(c.vertices) / 8);
+        let parts = [topology, places, values, stages, copies, edges];
         saturate(parts.into_iter().fold(0, u128::saturating_add))
     }
 }

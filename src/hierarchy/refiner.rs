@@ -6,13 +6,13 @@
 
 use super::columns::{Column, Place};
 use super::predict::Prediction;
-use super::step::Step;
+use super::step::{Interpolation, Step};
 use super::values::{check, check_length, check_overflow, lanes};
 use crate::base::memory::{resize, zeroed};
 use crate::base::{Context, Error, ErrorKind, Result, Scalar};
 use crate::mesh::Mesh;
 use crate::refine::adjacency::Recycled;
-use crate::refine::{CornerSplit, Counts};
+use crate::refine::{Counts, Split};
 use crate::scheme::Scheme;
 
 /// Values on vertices, any number of them per vertex.
@@ -22,6 +22,20 @@ pub struct Attribute<'a, T> {
     pub values: &'a [T],
     /// Values per record, at least 1.
     pub width: usize,
+    /// By which rows.
+    pub interpolation: Interpolation,
+}
+
+impl<'a, T> Attribute<'a, T> {
+    /// Values that are refined by the scheme's own rows, as positions are.
+    pub fn vertex(values: &'a [T], width: usize) -> Self {
+        Self { values, width, interpolation: Interpolation::Vertex }
+    }
+
+    /// Values that are refined linearly.
+    pub fn varying(values: &'a [T], width: usize) -> Self {
+        Self { values, width, interpolation: Interpolation::Varying }
+    }
 }
 
 /// What to refine, how, and how far.
@@ -82,6 +96,8 @@ pub struct Refiner<T> {
     levels: Vec<Recycled>,
     columns: Vec<Column<T>>,
     face_sources: Vec<Vec<u32>>,
+    /// Numbers of the edges of the level in work.
+    edges: Vec<u32>,
 }
 
 impl<T: Scalar> Default for Refiner<T> {
@@ -93,13 +109,15 @@ impl<T: Scalar> Default for Refiner<T> {
 impl<T: Scalar> Refiner<T> {
     /// A refiner without memory yet.
     pub fn new() -> Self {
-        Self { levels: Vec::new(), columns: Vec::new(), face_sources: Vec::new() }
+        let (levels, columns) = (Vec::new(), Vec::new());
+        Self { levels, columns, face_sources: Vec::new(), edges: Vec::new() }
     }
 
     /// Bytes of scratch memory held.
     pub fn bytes(&self) -> u64 {
         let columns: u64 = self.columns.iter().map(Column::bytes).sum();
         let sources: usize = self.face_sources.iter().map(Vec::capacity).sum();
+        let sources = sources + self.edges.capacity();
         self.levels.iter().map(Recycled::bytes).sum::<u64>() + columns + 4 * sources as u64
     }
 
@@ -198,6 +216,9 @@ impl<T: Scalar> Task<'_, T> {
         for (i, a) in self.attributes.iter().enumerate() {
             check_length(&format!("attribute {i}"), a.values.len(), a.width, vertices)?;
         }
+        for attribute in self.attributes {
+            self.scheme.check_interpolation(attribute.interpolation)?;
+        }
         let plan = Prediction::new(self.mesh, self.scheme, self.levels)?;
         plan.check_index_type()?;
         let widths = self.attributes.iter().map(|a| a.width as u64);
@@ -285,6 +306,21 @@ fn copy<T: Scalar>(task: &Task<T>, output: Output<T>) {
     }
 }
 
+/// One step, for values by the scheme's rows and for varying ones.
+struct Steps<'s> {
+    vertex: Step<'s>,
+    varying: Option<Step<'s>>,
+}
+
+impl<'s> Steps<'s> {
+    fn of(&self, interpolation: Interpolation) -> &Step<'s> {
+        match (interpolation, &self.varying) {
+            (Interpolation::Varying, Some(step)) => step,
+            _ => &self.vertex,
+        }
+    }
+}
+
 /// A call in progress.
 struct Run<'r, T> {
     context: &'r Context,
@@ -301,15 +337,19 @@ impl<T: Scalar> Run<'_, T> {
         let last = self.task.levels as usize - 1;
         for level in 0..last {
             let parent = owned.as_ref().unwrap_or(self.task.mesh);
-            let split = CornerSplit::new(self.context, parent, self.task.scheme.anchor(parent)?)?;
-            let step = Step::new(self.task.scheme, &split);
+            let split = self.task.scheme.plan(self.context, parent, &mut refiner.edges)?;
+            let steps = self.steps(&split)?;
             for (column, &place) in refiner.columns.iter_mut().zip(&places) {
-                let values = column.step(self.context, &step, level, place, self.input(place))?;
+                let step = steps.of(self.interpolation(place));
+                let values = column.step(self.context, step, level, place, self.input(place))?;
                 self.check(values, level + 1)?;
             }
+            drop(steps);
             self.inherit(&mut refiner.face_sources, &split, level, None)?;
-            let memory = &mut refiner.levels[level];
-            let child = split.mesh(self.context, self.task.scheme.anchors(), memory)?;
+            // Holes follow from the control faces, which the caller knows.
+            let carried = self.task.scheme.carried(&[]);
+            let child = split.mesh(self.context, carried, &mut refiner.levels[level])?;
+            split.recycle(&mut refiner.edges);
             if let Some(mesh) = owned.replace(child) {
                 refiner.levels[level - 1].absorb(mesh);
             }
@@ -332,7 +372,7 @@ impl<T: Scalar> Run<'_, T> {
         mut output: Output<T>,
     ) -> Result<()> {
         let level = self.task.levels as usize - 1;
-        let split = CornerSplit::new(self.context, parent, self.task.scheme.anchor(parent)?)?;
+        let split = self.task.scheme.plan(self.context, parent, &mut refiner.edges)?;
         if let Some(sizes) = &mut output.face_sizes {
             split.write_sizes(sizes);
         }
@@ -340,7 +380,7 @@ impl<T: Scalar> Run<'_, T> {
             split.write_faces(self.context, vertices)?;
         }
         self.inherit(&mut refiner.face_sources, &split, level, output.face_sources.take())?;
-        let step = Step::new(self.task.scheme, &split);
+        let steps = self.steps(&split)?;
         let parts = places.len() as f64 + 1.0;
         for (done, (column, &place)) in refiner.columns.iter_mut().zip(places).enumerate() {
             self.progress(level, (done as f64 + 1.0) / parts)?;
@@ -348,13 +388,32 @@ impl<T: Scalar> Run<'_, T> {
                 None => &mut *output.positions,
                 Some(i) => &mut *output.attributes[i],
             };
-            column.finish(self.context, &step, level, place, self.input(place), out)?;
+            let step = steps.of(self.interpolation(place));
+            column.finish(self.context, step, level, place, self.input(place), out)?;
             // Not before all lanes are there: what a buffer held does not count.
             if place.first + column.lanes() == place.width {
                 self.check(out, level + 1)?;
             }
         }
+        drop(steps);
+        split.recycle(&mut refiner.edges);
         Ok(())
+    }
+
+    /// The steps for all kinds of values.
+    fn steps<'s>(&'s self, split: &'s Split<'s>) -> Result<Steps<'s>> {
+        let step = |interpolation| Step::new(self.task.scheme, split, interpolation);
+        let varies = |a: &Attribute<T>| a.interpolation == Interpolation::Varying;
+        let varying = self.task.attributes.iter().any(varies);
+        Ok(Steps {
+            vertex: step(Interpolation::Vertex)?,
+            varying: if varying { Some(step(Interpolation::Varying)?) } else { None },
+        })
+    }
+
+    fn interpolation(&self, place: Place) -> Interpolation {
+        let attribute = place.attribute.checked_sub(1);
+        attribute.map_or(Interpolation::Vertex, |i| self.task.attributes[i].interpolation)
     }
 
     /// The columns of all values; those of the last call are used again.
@@ -392,7 +451,7 @@ impl<T: Scalar> Run<'_, T> {
     fn inherit(
         &self,
         kept: &mut Vec<Vec<u32>>,
-        split: &CornerSplit,
+        split: &Split,
         level: usize,
         out: Option<&mut [u32]>,
     ) -> Result<()> {
@@ -404,13 +463,13 @@ impl<T: Scalar> Run<'_, T> {
         let to = if let Some(out) = out {
             out
         } else {
-            resize(&mut to[0], split.counts.faces as usize)?;
+            resize(&mut to[0], split.counts().faces as usize)?;
             &mut to[0]
         };
-        for (slot, origin) in to.iter_mut().zip(split.face_origins()) {
+        split.each_face_origin(|child, origin| {
             let face = origin.representative(split.parent());
-            *slot = if level == 0 { face } else { from[level][face as usize] };
-        }
+            to[child] = if level == 0 { face } else { from[level][face as usize] };
+        });
         Ok(())
     }
 

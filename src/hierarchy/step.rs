@@ -1,27 +1,89 @@
-//! The values of one step: rows applied where they are needed, kernels elsewhere.
+//! One step of any scheme on one mesh, ready to be applied to values.
 
-use super::kernel::{Value, corner_grid, grid_children, quad_corners, touches_rim, vertex_grid};
-use crate::base::{Context, Fraction, Result, Scalar, memory};
-use crate::mesh::QuadWalker;
-use crate::refine::CornerSplit;
-use crate::scheme::{CornerWeights, RowSink, Scheme, SchemeRows, Taps};
+use super::dual_step::DualStep;
+use super::kernel::Value;
+use super::primal_step::PrimalStep;
+use crate::base::{Context, Error, ErrorKind, Result, Scalar};
+use crate::refine::Split;
+use crate::scheme::{RowSink, Scheme, SplitKind};
 
-/// One step of a scheme on one mesh, ready to be applied to values.
+/// By which rows values are refined.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[non_exhaustive]
+pub enum Interpolation {
+    /// The scheme's own, as positions are.
+    #[default]
+    Vertex,
+    /// Linear: midpoints of edges and means of faces, old vertices keep their values;
+    /// for primal schemes.
+    Varying,
+}
+
+impl Scheme {
+    /// Refuses rows that the scheme does not have.
+    pub(super) fn check_interpolation(&self, interpolation: Interpolation) -> Result<()> {
+        if interpolation == Interpolation::Vertex || self.split() != SplitKind::Corner {
+            return Ok(());
+        }
+        let message = "varying values belong to primal schemes; a dual one has no linear rows yet";
+        Err(Error::new(ErrorKind::Unsupported, message))
+    }
+}
+
+/// One step of a scheme on one mesh.
 pub(super) struct Step<'a> {
-    split: &'a CornerSplit<'a>,
-    scheme: &'a Scheme,
-    quads: QuadWalker<'a>,
-    /// Quads on the boundary are completed by mirror images.
-    mirrors: bool,
+    children: usize,
+    kind: Kind<'a>,
+}
+
+enum Kind<'a> {
+    Dual(DualStep<'a>),
+    Primal(PrimalStep<'a>),
+}
+
+impl<'a> Step<'a> {
+    /// The step that belongs to a planned split.
+    pub(super) fn new(
+        scheme: &'a Scheme,
+        split: &'a Split<'a>,
+        interpolation: Interpolation,
+    ) -> Result<Self> {
+        let kind = match split {
+            Split::Corner(split) => Kind::Dual(DualStep::new(scheme, split)),
+            Split::Primal(split) => Kind::Primal(PrimalStep::new(scheme, split, interpolation)?),
+        };
+        Ok(Self { children: split.counts().vertices as usize, kind })
+    }
+
+    /// The number of child vertices.
+    pub(super) fn children(&self) -> usize {
+        self.children
+    }
+
+    /// The values of all child vertices.
+    ///
+    /// `values` has one entry per parent vertex, `out` one per child vertex.
+    pub(super) fn apply<T: Scalar, const W: usize>(
+        &self,
+        context: &Context,
+        values: &[Value<T, W>],
+        out: &mut [Value<T, W>],
+        scratch: &mut Scratch<T, W>,
+    ) -> Result<()> {
+        match &self.kind {
+            Kind::Dual(step) => step.apply(context, values, out, scratch),
+            Kind::Primal(step) => step.apply(context, values, out, scratch),
+        }
+    }
 }
 
 /// Memory that a step needs besides its input and output.
 #[derive(Debug)]
 pub(super) struct Scratch<T, const W: usize> {
     /// Split points of the irregular corners.
-    irregular: Vec<Value<T, W>>,
-    /// The stage before the last, with two passes and more.
-    stage: Vec<Value<T, W>>,
+    pub(super) irregular: Vec<Value<T, W>>,
+    /// The stage before the last, where there are several.
+    pub(super) stage: Vec<Value<T, W>>,
 }
 
 impl<T, const W: usize> Default for Scratch<T, W> {
@@ -37,180 +99,19 @@ impl<T, const W: usize> Scratch<T, W> {
     }
 }
 
-impl<'a> Step<'a> {
-    pub(super) fn new(scheme: &'a Scheme, split: &'a CornerSplit<'a>) -> Self {
-        let parent = split.parent();
-        let mirrors = scheme.anchors() && !split.lays_anchor() && !parent.is_closed();
-        Self { split, scheme, quads: QuadWalker::new(parent), mirrors }
-    }
-
-    /// The number of child vertices.
-    pub(super) fn children(&self) -> usize {
-        self.split.counts.vertices as usize
-    }
-
-    /// The values of all child vertices.
-    ///
-    /// `values` has one entry per parent vertex, `out` one per child vertex.
-    pub(super) fn apply<T: Scalar, const W: usize>(
-        &self,
-        context: &Context,
-        values: &[Value<T, W>],
-        out: &mut [Value<T, W>],
-        scratch: &mut Scratch<T, W>,
-    ) -> Result<()> {
-        let passes = self.scheme.passes().len();
-        if passes == 0 {
-            return self.split_values(context, values, out);
-        }
-        let first_quad = self.split.parent().layout.first_quad_corner() as usize;
-        memory::resize(&mut scratch.irregular, first_quad)?;
-        context.fill(&mut scratch.irregular, 1, |start, part| {
-            let mut rows = SchemeRows::new(self.scheme, self.split);
-            let mut sum = Sum::new(values);
-            for (v, slot) in (start as u32..).zip(part) {
-                *slot = sum.of(|sink| rows.split_row(v, sink));
-            }
-        })?;
-        if passes == 1 {
-            return self.fused(context, values, &scratch.irregular, out);
-        }
-        memory::resize(&mut scratch.stage, out.len())?;
-        // Stages alternate between the two arrays so that the last is `out`.
-        let (mut from, mut to) = if passes.is_multiple_of(2) {
-            (&mut *scratch.stage, out)
-        } else {
-            (out, &mut *scratch.stage)
-        };
-        self.fused(context, values, &scratch.irregular, from)?;
-        for pass in 1..passes {
-            self.smooth(context, pass, from, to)?;
-            std::mem::swap(&mut from, &mut to);
-        }
-        Ok(())
-    }
-
-    /// The split alone.
-    fn split_values<T: Scalar, const W: usize>(
-        &self,
-        context: &Context,
-        values: &[Value<T, W>],
-        out: &mut [Value<T, W>],
-    ) -> Result<()> {
-        let cut = self.cut();
-        let quad = |corner: u32| {
-            let corners = self.quads.vertices(corner).map(|v| &values[v as usize]);
-            (!self.mirrors || !touches_rim(self.quads, corner)).then(|| quad_corners(cut, corners))
-        };
-        self.every_child(
-            context,
-            out,
-            || (SchemeRows::new(self.scheme, self.split), Sum::new(values)),
-            quad,
-            |(rows, sum), v| sum.of(|sink| rows.split_row(v, sink)),
-        )
-    }
-
-    /// The split and the first pass in one go.
-    fn fused<T: Scalar, const W: usize>(
-        &self,
-        context: &Context,
-        values: &[Value<T, W>],
-        irregular: &[Value<T, W>],
-        out: &mut [Value<T, W>],
-    ) -> Result<()> {
-        let taps = narrow(self.scheme.fused_taps());
-        self.every_child(
-            context,
-            out,
-            || (SchemeRows::new(self.scheme, self.split), SplitSum::new(self, values, irregular)),
-            |corner| {
-                let grid = vertex_grid(self.quads, corner, self.mirrors)?;
-                Some(grid_children(taps, &grid, values))
-            },
-            |(rows, sum), v| sum.of(|sink| rows.pass_row(0, v, sink)),
-        )
-    }
-
-    /// A further pass on the split mesh.
-    fn smooth<T: Scalar, const W: usize>(
-        &self,
-        context: &Context,
-        pass: usize,
-        values: &[Value<T, W>],
-        out: &mut [Value<T, W>],
-    ) -> Result<()> {
-        let taps = narrow(self.scheme.pass_taps(pass));
-        self.every_child(
-            context,
-            out,
-            || (SchemeRows::new(self.scheme, self.split), Sum::new(values)),
-            |corner| corner_grid(self.quads, corner).map(|grid| grid_children(taps, &grid, values)),
-            |(rows, sum), v| sum.of(|sink| rows.pass_row(pass, v, sink)),
-        )
-    }
-
-    /// Fills all children: four at a time where `quad` can, by `row` elsewhere.
-    fn every_child<T: Scalar, const W: usize, R>(
-        &self,
-        context: &Context,
-        out: &mut [Value<T, W>],
-        state: impl Fn() -> R + Sync + Send,
-        quad: impl Fn(u32) -> Option<[Value<T, W>; 4]> + Sync + Send,
-        row: impl Fn(&mut R, u32) -> Value<T, W> + Sync + Send,
-    ) -> Result<()> {
-        let layout = &self.split.parent().layout;
-        let (first, corners) = (layout.first_quad_corner(), layout.corners());
-        let (irregular, rest) = out.split_at_mut(first as usize);
-        let (quads, added) = rest.split_at_mut((corners - first) as usize);
-        let by_row = |first: u32, part: &mut [Value<T, W>]| {
-            let mut state = state();
-            for (v, slot) in (first..).zip(part) {
-                *slot = row(&mut state, v);
-            }
-        };
-        context.fill(irregular, 1, |start, part| by_row(start as u32, part))?;
-        context.fill(quads, 4, |start, part| {
-            let mut lazy = None;
-            let (faces, _) = part.as_chunks_mut::<4>();
-            for (face, children) in (start as u32..).zip(faces) {
-                let corner = first + 4 * face;
-                *children = quad(corner).unwrap_or_else(|| {
-                    let state = lazy.get_or_insert_with(&state);
-                    std::array::from_fn(|i| row(state, corner + i as u32))
-                });
-            }
-        })?;
-        context.fill(added, 1, |start, part| by_row(corners + start as u32, part))
-    }
-
-    /// The univariate cut, whose tensor square is the corner operator of the
-    /// split on a quad, under any rule.
-    fn cut<T: Scalar>(&self) -> [T; 2] {
-        let mut weights = CornerWeights::<f64>::new(self.scheme.rule(), Fraction::HALF);
-        let cut = weights.of(2);
-        std::array::from_fn(|i| T::from_f64(cut[i]))
-    }
-}
-
-/// Taps in the working precision.
-fn narrow<T: Scalar>(taps: Option<Taps<f64>>) -> Taps<T> {
-    taps.expect("the pass exists").map(T::from_f64)
-}
-
 /// A row applied to stored values.
-struct Sum<'v, T, const W: usize> {
-    values: &'v [Value<T, W>],
+pub(super) struct Sum<'v, T, const W: usize> {
+    pub(super) values: &'v [Value<T, W>],
     total: Value<T, W>,
 }
 
 impl<'v, T: Scalar, const W: usize> Sum<'v, T, W> {
-    fn new(values: &'v [Value<T, W>]) -> Self {
+    pub(super) fn new(values: &'v [Value<T, W>]) -> Self {
         Self { values, total: [T::default(); W] }
     }
 
     /// The value of the row that `emit` sends.
-    fn of(&mut self, emit: impl FnOnce(&mut Self)) -> Value<T, W> {
+    pub(super) fn of(&mut self, emit: impl FnOnce(&mut Self)) -> Value<T, W> {
         self.total = [T::default(); W];
         emit(self);
         self.total
@@ -224,63 +125,12 @@ impl<T: Scalar, const W: usize> RowSink<f64> for Sum<'_, T, W> {
 }
 
 #[inline(always)]
-fn accumulate<T: Scalar, const W: usize>(total: &mut Value<T, W>, w: T, value: &Value<T, W>) {
+pub(super) fn accumulate<T: Scalar, const W: usize>(
+    total: &mut Value<T, W>,
+    w: T,
+    value: &Value<T, W>,
+) {
     for (sum, &x) in total.iter_mut().zip(value) {
         *sum = *sum + w * x;
-    }
-}
-
-/// A row on split points, which are computed when asked for: those of quads
-/// cost four terms, those of irregular faces are stored.
-struct SplitSum<'v, T, const W: usize> {
-    quads: QuadWalker<'v>,
-    mirrors: bool,
-    cut: [T; 2],
-    irregular: &'v [Value<T, W>],
-    rows: SchemeRows<'v, f64>,
-    points: Sum<'v, T, W>,
-    total: Value<T, W>,
-}
-
-impl<'v, T: Scalar, const W: usize> SplitSum<'v, T, W> {
-    fn new(step: &Step<'v>, values: &'v [Value<T, W>], irregular: &'v [Value<T, W>]) -> Self {
-        Self {
-            quads: step.quads,
-            mirrors: step.mirrors,
-            cut: step.cut(),
-            irregular,
-            rows: SchemeRows::new(step.scheme, step.split),
-            points: Sum::new(values),
-            total: [T::default(); W],
-        }
-    }
-
-    fn of(&mut self, emit: impl FnOnce(&mut Self)) -> Value<T, W> {
-        self.total = [T::default(); W];
-        emit(self);
-        self.total
-    }
-
-    /// The split point of a child vertex.
-    fn split_point(&mut self, vertex: u32) -> Value<T, W> {
-        if let Some(stored) = self.irregular.get(vertex as usize) {
-            return *stored;
-        }
-        let face = self.quads.face_start(vertex);
-        if vertex < self.quads.mesh.layout.corners()
-            && !(self.mirrors && touches_rim(self.quads, face))
-        {
-            let corners = self.quads.vertices(face).map(|v| &self.points.values[v as usize]);
-            return quad_corners(self.cut, corners)[(vertex - face) as usize];
-        }
-        let rows = &mut self.rows;
-        self.points.of(|sink| rows.split_row(vertex, sink))
-    }
-}
-
-impl<T: Scalar, const W: usize> RowSink<f64> for SplitSum<'_, T, W> {
-    fn add(&mut self, vertex: u32, weight: f64) {
-        let point = self.split_point(vertex);
-        accumulate(&mut self.total, T::from_f64(weight), &point);
     }
 }

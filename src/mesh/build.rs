@@ -1,8 +1,9 @@
 //! From a polygon soup to a [`Mesh`]: checks, order, twins, fans.
 
 use super::pairing::{BadEdge, Pairing, pair};
-use super::{Defect, Defects, Layout, Mesh, Near, VertexSet, anchor, cut, order};
-use crate::base::{Context, Element, Error, ErrorKind, NONE, Result, memory};
+use super::{Defect, Defects, Joints, Layout, Mesh, Near, Sharpness, VertexSet};
+use super::{anchor, cut, joints, order, sharpness};
+use crate::base::{Context, Crease, Element, Error, ErrorKind, NONE, Result, SharpVertex, memory};
 
 /// What to do with edges and vertices that are not manifold.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -14,10 +15,13 @@ pub enum NonManifold {
     /// Make every face side at such an edge a boundary edge, and give every
     /// extra fan of a vertex its own copy of it.
     Cut,
+    /// Keep them as they are, infinitely sharp, as OpenSubdiv does; only primal
+    /// schemes refine such a mesh.
+    Sharpen,
 }
 
 /// How a mesh is built.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct BuildOptions<'a> {
     /// What to do with edges and vertices that are not manifold.
     pub non_manifold: NonManifold,
@@ -26,6 +30,12 @@ pub struct BuildOptions<'a> {
     pub anchored: bool,
     /// Boundary vertices to interpolate although they have several faces.
     pub corner_tags: &'a [u32],
+    /// Sharp edges; those on the boundary are infinitely sharp in any case.
+    pub creases: &'a [Crease],
+    /// Sharp vertices.
+    pub sharp_vertices: &'a [SharpVertex],
+    /// Faces, in the caller's order, that are refined but left out of what is drawn.
+    pub holes: &'a [u32],
 }
 
 /// A mesh and where its vertices came from.
@@ -58,22 +68,28 @@ pub fn build(
     let soup = Soup::arrange(sizes, &offsets, indices, &defects)?;
     let Pairing { twin, bad } = pair(context, vertices, &soup.vert, |c| soup.layout.next(c))?;
     let unusable = !defects.is_empty();
-    let cutting = options.non_manifold == NonManifold::Cut && !unusable;
-    if !cutting {
+    let policy = if unusable { NonManifold::Error } else { options.non_manifold };
+    if policy == NonManifold::Error {
         for edge in &bad {
             memory::extend(&mut defects, [soup.edge_defect(edge)?])?;
         }
     }
     let mut mesh = soup.into_mesh(vertices, twin)?;
-    if let Some(order) = order::breadth_first(&mesh.layout, &mesh.twin)? {
+    if policy == NonManifold::Sharpen {
+        mesh.joints.sides = Joints::of_groups(bad.iter().map(|edge| &edge.corners[..]))?;
+    }
+    // Joints name corners; a mesh with some keeps its order.
+    if mesh.joints.is_empty()
+        && let Some(order) = order::breadth_first(&mesh.layout, &mesh.twin)?
+    {
         mesh.reorder(&order)?;
     }
     let split = if unusable { Vec::new() } else { several_fans(context, &mut mesh)? };
     let mut vertex_source = None;
-    if cutting {
-        vertex_source = cut::separate_fans(&mut mesh, &split)?;
-    } else {
-        memory::extend(&mut defects, fan_defects(&split, &bad)?)?;
+    match policy {
+        NonManifold::Error => memory::extend(&mut defects, fan_defects(&split, &bad)?)?,
+        NonManifold::Cut => vertex_source = cut::separate_fans(&mut mesh, &split)?,
+        NonManifold::Sharpen => joints::collect_fans(&mut mesh, &split)?,
     }
     if !defects.is_empty() {
         return Err(Defects::Soup(defects));
@@ -248,7 +264,10 @@ impl Soup {
             rim: Vec::new(),
             special: Vec::new(),
             special_set: VertexSet::default(),
-            near: Near::default(),
+            near: None,
+            sharpness: Sharpness::default(),
+            joints: Joints::default(),
+            holes: Vec::new(),
             corner_tags: Vec::new(),
             anchored: false,
             face_source: self.source,
@@ -300,7 +319,7 @@ impl Mesh {
         let vertices = 0..self.start.len() as u32;
         self.special = memory::collect(vertices.filter(|&v| !self.is_regular(v)))?;
         self.special_set = VertexSet::new(self.start.len(), &self.special)?;
-        self.near = Near::of(self)?;
+        self.near = Some(Near::of(self)?);
         Ok(())
     }
 
@@ -341,5 +360,24 @@ fn set_tags(
     }
     mesh.corner_tags = tags;
     mesh.anchored = options.anchored;
+    let (creases, sharp) = (options.creases, options.sharp_vertices);
+    mesh.sharpness = sharpness::collect(mesh, creases, sharp, source, vertices)?;
+    joints::sharpen_vertices(mesh)?;
+    mesh.holes = holes(mesh, options.holes)?;
     if mesh.anchored { anchor::check(mesh) } else { Ok(()) }
+}
+
+/// The tagged holes in the mesh's order of faces, ascending.
+fn holes(mesh: &Mesh, tagged: &[u32]) -> Result<Vec<u32>> {
+    if let Some(&face) = tagged.iter().find(|&&f| f as usize >= mesh.faces()) {
+        let message = format!("the hole, face {face}, is not in the mesh");
+        let element = Element::Face(u64::from(face));
+        return Err(Error::new(ErrorKind::InvalidTag, message).with_elements([element]));
+    }
+    let mut wanted = memory::copied(tagged)?;
+    wanted.sort_unstable();
+    wanted.dedup();
+    let Some(source) = &mesh.face_source else { return Ok(wanted) };
+    let is_wanted = |face: &&u32| wanted.binary_search(face).is_ok();
+    memory::collect((0..).zip(source).filter(|(_, face)| is_wanted(face)).map(|(new, _)| new))
 }

@@ -13,9 +13,7 @@ pub(super) fn separate_fans(mesh: &mut Mesh, split: &[u32]) -> Result<Option<Vec
     if split.is_empty() {
         return Ok(None);
     }
-    let corners = (0..).zip(&mesh.vert).filter(|(_, v)| split.binary_search(v).is_ok());
-    let mut corners = memory::collect(corners.map(|(corner, &v)| (v, corner)))?;
-    corners.sort_unstable();
+    let corners = corners_of(mesh, split)?;
     let mut source = memory::collect(0..mesh.start.len() as u32)?;
     for group in corners.chunk_by(|a, b| a.0 == b.0) {
         let old = group[0].0;
@@ -34,8 +32,16 @@ pub(super) fn separate_fans(mesh: &mut Mesh, split: &[u32]) -> Result<Option<Vec
     Ok(Some(source))
 }
 
+/// The corners of the given vertices (ascending), sorted by vertex.
+pub(super) fn corners_of(mesh: &Mesh, vertices: &[u32]) -> Result<Vec<(u32, u32)>> {
+    let corners = (0..).zip(&mesh.vert).filter(|(_, v)| vertices.binary_search(v).is_ok());
+    let mut corners = memory::collect(corners.map(|(corner, &v)| (v, corner)))?;
+    corners.sort_unstable();
+    Ok(corners)
+}
+
 /// The fans of one vertex, by smallest corner; each starts where a fan starts.
-fn fans(mesh: &Mesh, corners: &[(u32, u32)]) -> Result<Vec<Vec<u32>>> {
+pub(super) fn fans(mesh: &Mesh, corners: &[(u32, u32)]) -> Result<Vec<Vec<u32>>> {
     let mut fans = Vec::new();
     let mut seen = memory::filled(false, corners.len())?;
     for i in 0..corners.len() {

@@ -10,7 +10,10 @@
 //! | `start` | vertex | first corner of its fan, or [`NONE`] if isolated |
 //! | `rim` | – | the corners whose outgoing edge is a boundary edge |
 //! | `special` | – | the vertices that are not interior of valence 4, as list and set |
-//! | `near` | face | which corners lead their edge and start a fan |
+//! | `near` | face | which corners lead their edge and start a fan; only corner splits ask |
+//! | `sharpness` | – | the sharp interior edges and vertices |
+//! | `joints` | – | edges and fans of a mesh that is not manifold |
+//! | `holes` | – | the faces that are holes |
 //!
 //! The fan of a boundary vertex starts at the corner whose outgoing edge is the
 //! boundary edge; that of an interior vertex at its smallest corner, or, in a
@@ -21,11 +24,13 @@ mod anchor;
 mod build;
 mod cut;
 mod defect;
+mod joints;
 mod layout;
 pub(crate) mod near;
 mod order;
 mod pairing;
 mod ring;
+pub(crate) mod sharpness;
 mod survey;
 mod validate;
 
@@ -33,12 +38,14 @@ pub use build::{BuildOptions, Built, NonManifold, build};
 #[cfg(feature = "capi")]
 pub(crate) use defect::summary;
 pub use defect::{Defect, Defects};
+pub(crate) use joints::Joints;
 pub(crate) use layout::{Layout, turn_in_quad};
 pub(crate) use near::Near;
 pub(crate) use ring::{QuadWalker, VertexSet};
+pub(crate) use sharpness::Sharpness;
 pub use survey::Survey;
 
-use crate::base::{Error, NONE, Result};
+use crate::base::{Crease, Error, NONE, Result, SharpVertex};
 use std::ops::Range;
 
 /// The topology of an orientable 2-manifold polygon mesh, closed or with
@@ -57,7 +64,10 @@ pub struct Mesh {
     pub(crate) rim: Vec<u32>,
     pub(crate) special: Vec<u32>,
     pub(crate) special_set: VertexSet,
-    pub(crate) near: Near,
+    pub(crate) near: Option<Near>,
+    pub(crate) sharpness: Sharpness,
+    pub(crate) joints: Joints,
+    pub(crate) holes: Vec<u32>,
     pub(crate) corner_tags: Vec<u32>,
     pub(crate) anchored: bool,
     /// Input face of each face, where the order was changed.
@@ -103,12 +113,12 @@ impl Mesh {
 
     /// The number of edges.
     pub fn edges(&self) -> usize {
-        self.interior_edges() + self.rim.len()
+        self.interior_edges() + self.boundary_edges() + self.joints.edges()
     }
 
-    /// The number of edges with a face on one side only.
+    /// The number of edges with one face only.
     pub fn boundary_edges(&self) -> usize {
-        self.rim.len()
+        self.rim.len() - self.joints.sides.len()
     }
 
     pub(crate) fn interior_edges(&self) -> usize {
@@ -172,14 +182,30 @@ impl Mesh {
                 edges += 1;
                 edges - 1
             } else {
-                out[self.twin[c as usize] as usize]
+                out[self.first_of_edge(c) as usize]
             };
         }
     }
 
-    /// True for the smaller corner of an interior edge, and for a boundary edge's.
-    fn is_first_of_edge(&self, corner: u32) -> bool {
-        corner < self.twin[corner as usize]
+    /// True for the smallest corner of an edge.
+    #[inline(always)]
+    pub(crate) fn is_first_of_edge(&self, corner: u32) -> bool {
+        let twin = self.twin[corner as usize];
+        corner < twin && (twin != NONE || self.leads_joint(corner))
+    }
+
+    /// True unless another side of a non-manifold edge comes before this one.
+    #[inline(always)]
+    fn leads_joint(&self, corner: u32) -> bool {
+        self.joints.sides.is_empty() || self.joints.leader(corner).is_none_or(|l| l == corner)
+    }
+
+    /// The smallest corner of the outgoing edge of a corner.
+    pub(crate) fn first_of_edge(&self, corner: u32) -> u32 {
+        match self.twin[corner as usize] {
+            NONE => self.joints.leader(corner).unwrap_or(corner),
+            twin => corner.min(twin),
+        }
     }
 
     /// The size of every face, in order.
@@ -201,6 +227,31 @@ impl Mesh {
         self.face_source.as_ref().map_or(face, |source| source[face] as usize)
     }
 
+    /// The sharp edges that are not on the boundary, by their vertices.
+    pub fn creases(&self) -> impl ExactSizeIterator<Item = Crease> + '_ {
+        self.sharpness.edges.iter().map(|&(c, sharpness)| {
+            let vertices = [self.vert[c as usize], self.vert[self.next(c) as usize]];
+            Crease { vertices, sharpness }
+        })
+    }
+
+    /// The sharp vertices, ascending.
+    pub fn sharp_vertices(&self) -> impl ExactSizeIterator<Item = SharpVertex> + '_ {
+        let tag = |&(vertex, sharpness): &(u32, f32)| SharpVertex { vertex, sharpness };
+        self.sharpness.vertices.iter().map(tag)
+    }
+
+    /// The faces tagged as holes, ascending.
+    pub fn holes(&self) -> &[u32] {
+        &self.holes
+    }
+
+    /// True if every edge has at most two faces, which agree in orientation, and the
+    /// faces around every vertex form one fan; false only under policy `sharpen`.
+    pub fn is_manifold(&self) -> bool {
+        self.joints.is_empty()
+    }
+
     /// Tagged corner vertices of the boundary, ascending.
     pub fn corner_tags(&self) -> &[u32] {
         &self.corner_tags
@@ -211,10 +262,10 @@ impl Mesh {
     /// # Panics
     /// If `vertex` is not below [`Mesh::vertices`].
     pub fn valence(&self, vertex: usize) -> usize {
-        self.fan(vertex as u32).count()
+        self.fans(vertex as u32).count()
     }
 
-    /// True if the vertex lies on a boundary.
+    /// True if the vertex lies on a boundary, or on an edge that is not manifold.
     ///
     /// # Panics
     /// If `vertex` is not below [`Mesh::vertices`].
@@ -233,10 +284,12 @@ impl Mesh {
         let lists = [&self.vert, &self.twin, &self.start, &self.rim, &self.special];
         let lists: usize = lists.iter().map(|list| list.capacity()).sum();
         let source = self.face_source.as_ref().map_or(0, Vec::capacity);
-        let near = (self.near.irregular.capacity() + self.near.quads.capacity()) as u64;
         self.layout.bytes()
             + self.special_set.bytes()
-            + near
+            + self.near.as_ref().map_or(0, Near::bytes)
+            + self.sharpness.bytes()
+            + self.joints.bytes()
+            + 4 * self.holes.capacity() as u64
             + 4 * (lists + self.corner_tags.capacity() + source) as u64
     }
 
@@ -272,9 +325,20 @@ impl Mesh {
         start != NONE && self.twin[start as usize] == NONE
     }
 
-    /// The corners of a vertex, counter-clockwise from the start of its fan.
+    /// The corners of a vertex, counter-clockwise from the start of its fan; of the
+    /// first one, where it has several.
     pub(crate) fn fan(&self, vertex: u32) -> impl Iterator<Item = u32> + '_ {
-        let start = self.start[vertex as usize];
+        self.fan_from(self.start[vertex as usize])
+    }
+
+    /// The corners of a vertex, fan after fan.
+    pub(crate) fn fans(&self, vertex: u32) -> impl Iterator<Item = u32> + '_ {
+        let further = self.joints.further_fans(vertex);
+        self.fan(vertex).chain(further.flat_map(|start| self.fan_from(start)))
+    }
+
+    /// The corners of the fan that starts at a corner.
+    pub(crate) fn fan_from(&self, start: u32) -> impl Iterator<Item = u32> + '_ {
         let some = |corner: u32| (corner != NONE).then_some(corner);
         std::iter::successors(some(start), move |&corner| {
             some(self.ccw(corner)).filter(|&next| next != start)

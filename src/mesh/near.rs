@@ -48,6 +48,11 @@ impl Near {
         Ok(Self { irregular, quads: memory::collect(quads.map(quad))? })
     }
 
+    /// Bytes held.
+    pub(crate) fn bytes(&self) -> u64 {
+        (self.irregular.capacity() + self.quads.capacity()) as u64
+    }
+
     /// A copy.
     pub(crate) fn try_clone(&self) -> Result<Self> {
         let irregular = memory::copied(&self.irregular)?;

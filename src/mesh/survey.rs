@@ -91,6 +91,9 @@ fn root(parent: &mut [u32], mut v: u32) -> u32 {
 }
 
 fn boundary_loops(mesh: &Mesh) -> Result<usize> {
+    if !mesh.is_manifold() {
+        return boundary_components(mesh);
+    }
     let mut seen = memory::filled(false, mesh.rim.len())?;
     let mut loops = 0;
     for i in 0..mesh.rim.len() {
@@ -104,4 +107,23 @@ fn boundary_loops(mesh: &Mesh) -> Result<usize> {
         }
     }
     Ok(loops)
+}
+
+/// Where several fans meet, loops are not told apart: connected parts of the boundary.
+fn boundary_components(mesh: &Mesh) -> Result<usize> {
+    let mut parent = memory::collect(0..mesh.start.len() as u32)?;
+    let mut touched = memory::filled(false, mesh.start.len())?;
+    let mut joined = 0;
+    for &c in mesh.rim.iter().filter(|&&c| mesh.joints.leader(c).is_none()) {
+        let ends = [c, mesh.next(c)].map(|c| mesh.vert[c as usize]);
+        let [a, b] = ends.map(|v| root(&mut parent, v));
+        if a != b {
+            parent[a.max(b) as usize] = a.min(b);
+            joined += 1;
+        }
+        for v in ends {
+            touched[v as usize] = true;
+        }
+    }
+    Ok(touched.iter().filter(|&&t| t).count() - joined)
 }

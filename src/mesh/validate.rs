@@ -53,13 +53,42 @@ impl Mesh {
         let mut reached = 0;
         for (v, &start) in self.start.iter().enumerate() {
             ensure(start == NONE || (start as usize) < self.vert.len(), "range of start", v)?;
-            let fan = memory::collect(self.fan(v as u32))?;
-            reached += fan.len();
-            ensure(fan.iter().all(|&c| self.vert[c as usize] as usize == v), "fan", v)?;
-            let closed = fan.last().is_none_or(|&last| self.ccw(last) == start);
-            ensure(closed || self.on_rim(v as u32), "start of fan", v)?;
+            reached += self.check_fan(v, start)?;
+        }
+        for &(v, start) in &self.joints.fans {
+            let named = (v as usize) < self.start.len() && (start as usize) < self.vert.len();
+            ensure(named, "further fan", v as usize)?;
+            reached += self.check_fan(v as usize, start)?;
         }
         ensure(reached == self.vert.len(), "corners reached by fans", reached)
+    }
+
+    /// The number of corners of a fan that stays at its vertex.
+    fn check_fan(&self, vertex: usize, start: u32) -> Result<usize> {
+        let fan = memory::collect(self.fan_from(start))?;
+        let at_vertex = fan.iter().all(|&c| self.vert[c as usize] as usize == vertex);
+        ensure(at_vertex, "fan", vertex)?;
+        let closed = fan.last().is_none_or(|&last| self.ccw(last) == start);
+        let open = start != NONE && self.twin[start as usize] == NONE;
+        ensure(closed || open, "start of fan", vertex)?;
+        Ok(fan.len())
+    }
+
+    /// Sides of one edge run between the same vertices, and the smallest leads.
+    fn check_joints(&self) -> Result<()> {
+        let sides = &self.joints.sides;
+        let ends = |c: u32| {
+            let (a, b) = (self.vert[c as usize], self.vert[self.next(c) as usize]);
+            (a.min(b), a.max(b))
+        };
+        for &(c, leader) in sides {
+            let open = self.twin.get(c as usize) == Some(&NONE) && leader <= c;
+            ensure(open && self.joints.leader(leader) == Some(leader), "side", c as usize)?;
+            ensure(ends(c) == ends(leader), "ends of side", c as usize)?;
+        }
+        let ascending = sides.windows(2).all(|pair| pair[0].0 < pair[1].0);
+        let fans = self.joints.fans.windows(2).all(|pair| pair[0] < pair[1]);
+        ensure(ascending && fans, "order of joints", sides.len())
     }
 
     fn check_lists(&self) -> Result<()> {
@@ -69,6 +98,11 @@ impl Mesh {
         ensure(self.special.iter().copied().eq(special), "special", self.special.len())?;
         let set = VertexSet::new(self.start.len(), &self.special)?;
         self.check_near()?;
+        self.check_joints()?;
+        ensure(self.sharpness.is_consistent(self), "sharpness", self.sharpness.edges.len())?;
+        let holes = self.holes.windows(2).all(|pair| pair[0] < pair[1])
+            && self.holes.iter().all(|&f| (f as usize) < self.faces());
+        ensure(holes, "holes", self.holes.len())?;
         ensure(self.special_set == set, "set of special vertices", self.special.len())?;
         let sorted = self.corner_tags.windows(2).all(|pair| pair[0] < pair[1])
             && self.corner_tags.iter().all(|&v| (v as usize) < self.start.len());
@@ -81,12 +115,13 @@ impl Mesh {
 impl Mesh {
     /// One corner leads each interior edge, and the right ones start fans.
     fn check_near(&self) -> Result<()> {
+        let Some(near) = &self.near else { return Ok(()) };
         let first = self.layout.first_quad_corner();
         let quads = (self.layout.corners() - first) as usize / 4;
-        let sizes = self.near.irregular.len() == first as usize && self.near.quads.len() == quads;
+        let sizes = near.irregular.len() == first as usize && near.quads.len() == quads;
         ensure(sizes, "sizes of near", quads)?;
         for c in 0..self.layout.corners() {
-            let leads = |c| self.near.corner(first, c) & LEADS != 0;
+            let leads = |c| near.corner(first, c) & LEADS != 0;
             let led = match self.twin[c as usize] {
                 NONE => !leads(c),
                 twin => leads(c) != leads(twin),
@@ -94,7 +129,7 @@ impl Mesh {
             ensure(led, "leader of edge", c as usize)?;
             let v = self.vert[c as usize];
             let starts = self.start[v as usize] == c && !self.special_set.contains(v);
-            ensure((self.near.corner(first, c) & STARTS != 0) == starts, "starts", c as usize)?;
+            ensure((near.corner(first, c) & STARTS != 0) == starts, "starts", c as usize)?;
         }
         Ok(())
     }

@@ -6,7 +6,7 @@
 use super::corner_split::{Child, CornerSplit};
 use crate::base::{Context, NONE, Result, memory};
 use crate::mesh::near::{LEADS, LEADS_ALL, LEADS_NONE, LEADS_OUTER, STARTS};
-use crate::mesh::{Mesh, Near, QuadWalker, VertexSet};
+use crate::mesh::{Joints, Mesh, Near, QuadWalker, Sharpness, VertexSet};
 use bytemuck::Zeroable;
 
 /// Steps around a vertex that are cheaper than a search in the list of hubs.
@@ -15,9 +15,9 @@ const SHORT_FAN: u32 = 16;
 /// Arrays of a level that are used again in the next call.
 #[derive(Debug, Default)]
 pub(crate) struct Recycled {
-    vert: Vec<u32>,
-    twin: Vec<u32>,
-    start: Vec<u32>,
+    pub(super) vert: Vec<u32>,
+    pub(super) twin: Vec<u32>,
+    pub(super) start: Vec<u32>,
     place: Vec<u32>,
     near: Vec<u8>,
 }
@@ -28,7 +28,9 @@ impl Recycled {
         self.vert = mesh.vert;
         self.twin = mesh.twin;
         self.start = mesh.start;
-        self.near = mesh.near.quads;
+        if let Some(near) = mesh.near {
+            self.near = near.quads;
+        }
     }
 
     /// Bytes held.
@@ -41,7 +43,7 @@ impl Recycled {
 
 /// An array of exactly `len` entries in re-used memory; entries keep whatever
 /// they held, since every one of them is about to be written.
-fn sized<T: Copy + Zeroable>(list: &mut Vec<T>, len: usize) -> Result<Vec<T>> {
+pub(super) fn sized<T: Copy + Zeroable>(list: &mut Vec<T>, len: usize) -> Result<Vec<T>> {
     let mut list = std::mem::take(list);
     memory::resize(&mut list, len)?;
     Ok(list)
@@ -69,16 +71,21 @@ impl CornerSplit<'_> {
             rim: Vec::new(),
             special: self.special()?,
             special_set: VertexSet::default(),
-            near: Near {
-                irregular: memory::zeroed(self.quads as usize)?,
-                quads: sized(&mut recycled.near, quads)?,
-            },
+            near: None,
+            sharpness: Sharpness::default(),
+            joints: Joints::default(),
+            holes: Vec::new(),
             corner_tags: Vec::new(),
             anchored,
             face_source: None,
         };
         child.special_set = VertexSet::new(child.start.len(), &child.special)?;
-        links.write(context, &mut child)?;
+        let mut near = Near {
+            irregular: memory::zeroed(self.quads as usize)?,
+            quads: sized(&mut recycled.near, quads)?,
+        };
+        links.write(context, &mut child, &mut near)?;
+        child.near = Some(near);
         child.rim = links.rim()?;
         recycled.place = links.place;
         Ok(child)
@@ -230,12 +237,12 @@ impl<'a, 'b> Links<'a, 'b> {
     }
 
     /// Writes twins, fan starts and near bits of the child.
-    fn write(&self, context: &Context, child: &mut Mesh) -> Result<()> {
+    fn write(&self, context: &Context, child: &mut Mesh, near: &mut Near) -> Result<()> {
         let split = self.split;
         let first = split.vertex_faces;
-        self.write_irregular(child);
+        self.write_irregular(child, near);
         let mut twins = child.twin[split.quads as usize..].as_chunks_mut::<4>().0;
-        let mut near = &mut child.near.quads[..];
+        let mut near = &mut near.quads[..];
         let (mut starts, added) = child.start.split_at_mut(split.parent.corners());
         let special = &child.special_set;
         let mut parts = Vec::with_capacity(split.chunks.len());
@@ -271,11 +278,11 @@ impl<'a, 'b> Links<'a, 'b> {
     }
 
     /// The children that are no quads.
-    fn write_irregular(&self, child: &mut Mesh) {
+    fn write_irregular(&self, child: &mut Mesh, near: &mut Near) {
         let first = self.split.vertex_faces;
         for c in 0..first {
             child.twin[c as usize] = self.across_face(c);
-            child.near.irregular[c as usize] = self.face_bits(c, &child.special_set);
+            near.irregular[c as usize] = self.face_bits(c, &child.special_set);
         }
         let mut out = &mut child.twin[first as usize..];
         for &(v, size) in &self.split.irregular {

@@ -142,7 +142,10 @@ impl<'a> CornerSplit<'a> {
             vertex_faces,
             quads,
             chunks: Vec::new(),
-            near: Cow::Borrowed(&parent.near),
+            near: match &parent.near {
+                Some(near) => Cow::Borrowed(near),
+                None => Cow::Owned(Near::of(parent)?),
+            },
         };
         split.frame_near()?;
         split.chunks = split.cut(context)?;
@@ -186,7 +189,7 @@ impl<'a> CornerSplit<'a> {
         if !self.lays_anchor() || self.parent.is_closed() {
             return Ok(());
         }
-        let mut near = self.parent.near.try_clone()?;
+        let mut near = self.near.try_clone()?;
         let first = self.vertex_faces;
         for &c in &self.parent.rim {
             // The fan of a boundary vertex starts at its rim corner.

@@ -113,6 +113,40 @@ impl Counts {
         Some(self.child(&children, irregular))
     }
 
+    /// The counts after a quad split; `None` past 64 bits.
+    pub(crate) fn quads(&self) -> Option<Self> {
+        let edges = self.edges.checked_mul(2)?.checked_add(self.corners)?;
+        let vertices = self.vertices.checked_add(self.edges)?.checked_add(self.faces)?;
+        self.primal_child(vertices, edges, self.corners, 4)
+    }
+
+    /// The counts after a triangle split; `None` past 64 bits.
+    pub(crate) fn triangles(&self) -> Option<Self> {
+        let edges = self.edges.checked_mul(2)?.checked_add(self.corners)?;
+        let vertices = self.vertices.checked_add(self.edges)?;
+        self.primal_child(vertices, edges, self.faces.checked_mul(4)?, 3)
+    }
+
+    /// Valences, which primal splits do not ask for, are not followed.
+    fn primal_child(&self, vertices: u64, edges: u64, faces: u64, side: u64) -> Option<Self> {
+        Some(Self {
+            vertices,
+            edges,
+            faces,
+            corners: faces.checked_mul(side)?,
+            boundary_edges: 2 * self.boundary_edges,
+            irregular_faces: 0,
+            irregular_corners: 0,
+            isolated: self.isolated,
+            rim_corners: 0,
+            valence_two: 0,
+            valence_three: 0,
+            other_vertices: 0,
+            other_corners: 0,
+            triangles: side == 3,
+        })
+    }
+
     fn child(&self, sizes: &Sizes, irregular: (u64, u64)) -> Self {
         let (faces, corners) = if self.triangles {
             (self.faces, self.corners)

@@ -1,6 +1,7 @@
 //! Where the children of a split come from.
 
 use super::corner_split::{Child, CornerSplit};
+use super::primal_split::{Pieces, PrimalSplit};
 use crate::mesh::Mesh;
 
 /// The parent element of a refined vertex. Corners and faces are numbered in
@@ -17,8 +18,12 @@ pub enum VertexOrigin {
         /// False near the corner's vertex, true near the next one's.
         at_end: bool,
     },
-    /// A vertex: a corner of the boundary, or an isolated vertex.
+    /// A vertex: in a dual step a corner of the boundary or an isolated one.
     Vertex(u32),
+    /// An edge, by its first corner.
+    Edge(u32),
+    /// A face.
+    Face(u32),
 }
 
 /// The parent element of a refined face.
@@ -31,6 +36,8 @@ pub enum FaceOrigin {
     Edge(u32),
     /// A vertex.
     Vertex(u32),
+    /// The corner of a face, from which a primal step makes a face of its own.
+    Corner(u32),
 }
 
 impl FaceOrigin {
@@ -40,7 +47,7 @@ impl FaceOrigin {
     pub fn representative(self, parent: &Mesh) -> u32 {
         match self {
             Self::Face(face) => face,
-            Self::Edge(corner) => parent.layout.face_of(corner),
+            Self::Edge(corner) | Self::Corner(corner) => parent.layout.face_of(corner),
             Self::Vertex(v) => parent.layout.face_of(parent.start[v as usize]),
         }
     }
@@ -73,5 +80,29 @@ impl CornerSplit<'_> {
             std::iter::once(face).chain(vertices).chain((c..c + 4).filter_map(edge))
         });
         (0..kept).map(FaceOrigin::Face).chain(irregular).chain(corners).chain(quads)
+    }
+}
+
+impl PrimalSplit<'_> {
+    /// The origins of all child vertices, in order.
+    pub(crate) fn vertex_origins(&self) -> impl Iterator<Item = VertexOrigin> + '_ {
+        let layout = &self.parent.layout;
+        let vertices = (0..self.parent.vertices() as u32).map(VertexOrigin::Vertex);
+        let first = |&c: &u32| self.parent.is_first_of_edge(c);
+        let edges = (0..layout.corners()).filter(first).map(VertexOrigin::Edge);
+        let faces = if self.pieces == Pieces::Quads { layout.faces() } else { 0 };
+        vertices.chain(edges).chain((0..faces).map(VertexOrigin::Face))
+    }
+
+    /// The origins of all child faces, in order.
+    pub(crate) fn face_origins(&self) -> impl Iterator<Item = FaceOrigin> + '_ {
+        let corners = (0..self.parent.layout.corners()).map(FaceOrigin::Corner);
+        let middle = |origin| match (self.pieces, origin) {
+            (Pieces::Triangles, FaceOrigin::Corner(c)) if c % 3 == 2 => {
+                Some(FaceOrigin::Face(c / 3))
+            }
+            _ => None,
+        };
+        corners.flat_map(move |corner| std::iter::once(corner).chain(middle(corner)))
     }
 }

@@ -6,12 +6,21 @@
 pub(crate) mod adjacency;
 mod corner_split;
 mod counts;
+mod creasing;
+mod edges;
 mod faces;
 mod lineage;
 mod neighbourhood;
+mod primal_adjacency;
+mod primal_split;
+mod split;
 
 pub use corner_split::Anchor;
 pub(crate) use corner_split::{Child, CornerSplit};
 pub use counts::Counts;
+pub use creasing::Creasing;
+pub(crate) use creasing::{Around, decrement};
 pub use lineage::{FaceOrigin, VertexOrigin};
 pub(crate) use neighbourhood::{BoundaryNeighbours, Cycle, Neighbourhood, Side};
+pub(crate) use primal_split::{Pieces, PrimalChild, PrimalSplit};
+pub(crate) use split::{Carried, Split};

@@ -5,16 +5,31 @@
 //! exact tests) consumes these rows; nobody writes a weight a second time.
 
 mod averaging;
+mod choice;
 mod corner;
+mod crease_rules;
+mod dual_rows;
 mod mirror;
 mod presets;
+mod primal_passes;
+mod primal_rows;
 mod regular;
 mod rows;
+mod scheme_options;
+mod smooth;
 
 #[cfg(feature = "capi")]
 pub(crate) use averaging::MOST_PASSES;
-pub use averaging::{Boundary, Scheme};
+pub(crate) use choice::Method;
+pub use choice::{Scheme, SplitKind};
 pub use corner::CornerRule;
 pub(crate) use corner::CornerWeights;
+pub(crate) use dual_rows::DualRows;
+pub(crate) use primal_rows::{PointSink, PrimalRows};
 pub(crate) use regular::Taps;
-pub use rows::{RowSink, SchemeRows};
+pub use rows::RowSink;
+pub(crate) use rows::SchemeRows;
+pub use scheme_options::{Boundary, LoopWeights, TriangleRule};
+pub(crate) use smooth::{SmoothMasks, VertexMask};
+
+pub use crate::refine::Creasing;

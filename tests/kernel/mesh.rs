@@ -18,8 +18,14 @@ use crate::support::topology::Topology;
 
 use Element::{Edge, Face, Vertex};
 
-const CUT: BuildOptions =
-    BuildOptions { non_manifold: NonManifold::Cut, anchored: false, corner_tags: &[] };
+const CUT: BuildOptions = BuildOptions {
+    non_manifold: NonManifold::Cut,
+    anchored: false,
+    corner_tags: &[],
+    creases: &[],
+    sharp_vertices: &[],
+    holes: &[],
+};
 
 fn refusal(vertices: usize, faces: &[&[usize]]) -> Error {
     let options = BuildOptions::default();

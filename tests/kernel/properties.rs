@@ -319,7 +319,7 @@ fn check_threads<T: Scalar>(control: &Poly<f64>, scheme: &Scheme, levels: u32) {
     let (mesh, scheme) = (kernel::mesh(control), kernel::scheme(scheme));
     let positions = kernel::coordinates::<T>(control);
     let values = random_values::<T>(5 * mesh.vertices(), 3);
-    let attributes = &[Attribute { values: &values, width: 5 }];
+    let attributes = &[Attribute::vertex(&values, 5)];
     let task = Task {
         mesh: &mesh,
         scheme: &scheme,
@@ -404,7 +404,7 @@ fn check_width<T: Scalar>(hierarchy: &Hierarchy, width: usize, tolerance: f64) {
     let (mesh, level) = (hierarchy.mesh(0), hierarchy.last_level());
     let values = random_values::<T>(width * mesh.vertices(), width as u64);
     let positions = random_values::<T>(3 * mesh.vertices(), 0);
-    let attributes = &[Attribute { values: &values, width }];
+    let attributes = &[Attribute::vertex(&values, width)];
     let scheme = hierarchy.scheme();
     let task = Task {
         mesh,
@@ -482,7 +482,7 @@ impl Job {
             scheme: &self.scheme,
             levels: self.levels,
             positions: &self.positions,
-            attributes: &[Attribute { values: &self.values, width: self.width }],
+            attributes: &[Attribute::vertex(&self.values, self.width)],
             face_sources: true,
         };
         refiner.refine(&Context::serial(), &task).expect("a refinement")

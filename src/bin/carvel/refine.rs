@@ -98,9 +98,8 @@ fn run<T: Precise>(refiner: &mut Refiner<T>, context: &Context, work: &Work) -> 
     let columns = load.columns.iter().map(|c| T::narrow(&c.values, c.width));
     let columns = columns.collect::<Result<Vec<_>>>()?;
     let attributes = load.columns.iter().zip(&columns);
-    let attributes: Vec<_> = attributes
-        .map(|(column, values)| Attribute { values: &values[..], width: column.width })
-        .collect();
+    let attributes: Vec<_> =
+        attributes.map(|(column, values)| Attribute::vertex(&values[..], column.width)).collect();
     let points = positions(work);
     let positions = T::narrow(points.as_flattened(), 3)?;
     let task = Task {

@@ -9,7 +9,7 @@ use num_traits::ToPrimitive;
 
 use super::number::Number;
 use super::poly::Poly;
-use super::reference::{Boundary, Rule, Scheme};
+use super::reference::{Boundary, Rule, Scheme, Split};
 
 /// Faces as the kernel takes them.
 #[derive(Clone, Debug)]
@@ -45,7 +45,7 @@ pub fn fraction(of: &BigRational) -> Fraction {
     Fraction::new(part(of.numer()), part(of.denom())).expect("a fraction")
 }
 
-/// The kernel's scheme; dual ones only.
+/// The kernel's scheme.
 pub fn scheme(of: &Scheme) -> carvel::Scheme {
     let passes: Vec<Fraction> = of.passes.iter().map(fraction).collect();
     let rule = match of.rule {
@@ -57,8 +57,11 @@ pub fn scheme(of: &Scheme) -> carvel::Scheme {
         Boundary::Edge => carvel::Boundary::Edge,
         Boundary::EdgeCorner => carvel::Boundary::EdgeAndCorner,
     };
-    let dual = carvel::Scheme::dual(&passes).expect("passes in range");
-    dual.with_rule(rule).with_boundary(boundary)
+    let scheme = match of.split {
+        Split::Dual => carvel::Scheme::dual(&passes),
+        Split::Primal => carvel::Scheme::primal(&passes),
+    };
+    scheme.expect("passes in range").with_rule(rule).with_boundary(boundary)
 }
 
 /// The kernel's mesh, tags and flag included.
