@@ -10,7 +10,7 @@
 
 use crate::normalise::Correspondence;
 use crate::opensubdiv::{Level, Parent};
-use crate::{PeerMesh, Result};
+use crate::{PeerMesh, Refinement, Result, Scheme, Task, ours};
 use std::collections::HashMap;
 
 /// How a step cuts faces.
@@ -182,4 +182,20 @@ pub fn match_levels(
         at = descend(&at, &ours, level)?;
     }
     Ok((ours, at))
+}
+
+/// Matches carvel's answer to a task with OpenSubdiv's: carvel's last level laid out
+/// from the documentation, and whose vertex and face is whose.
+///
+/// # Errors
+/// The first child that one side has and the other has not.
+pub fn match_refinement(
+    task: &Task,
+    theirs: &Refinement,
+    levels: u32,
+) -> Result<(Ours, Correspondence)> {
+    let split = if task.scheme == Scheme::Loop { Split::Triangle } else { Split::Quad };
+    let levels = (0..=levels).map(|n| theirs.level(n)).collect::<Result<Vec<_>>>()?;
+    let (control, sources) = ours::control(task.control)?;
+    match_levels(&control, sources, split, &levels)
 }

@@ -1,29 +1,75 @@
 //! carvel on the same control meshes.
 
 use crate::lineage::Ours;
-use crate::{Boundary, Control, PeerMesh, Precision, Result, Scheme};
-use carvel::{Context, Mesh, Refiner, Task};
+use crate::opensubdiv::Values;
+use crate::{Boundary, Control, Creasing, PeerMesh, Precision, Result, Scheme, Task, Triangles};
+use carvel::base::Scalar;
+use carvel::mesh::{BuildOptions, NonManifold, build};
+use carvel::scheme::TriangleRule;
+use carvel::{Attribute, Context, Error, Mesh, Refined, Refiner};
 
-/// carvel's scheme for a peer's; `None` for those that carvel does not have.
-pub fn scheme(scheme: Scheme, boundary: Boundary) -> Option<carvel::Scheme> {
-    let ours = match scheme {
+/// What carvel gave back, in its own numbering.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Answer {
+    /// The last level.
+    pub mesh: PeerMesh,
+    /// True for its faces that are holes.
+    pub holes: Vec<bool>,
+    /// Values refined with it.
+    pub values: Vec<f64>,
+}
+
+/// carvel's scheme for a task; `None` where carvel does not have it.
+pub fn scheme(task: &Task) -> Option<carvel::Scheme> {
+    let ours = match task.scheme {
+        Scheme::CatmullClark => carvel::Scheme::catmull_clark(),
+        Scheme::Loop => carvel::Scheme::loop_triangles(),
+        Scheme::Bilinear => carvel::Scheme::bilinear(),
         Scheme::DooSabin => carvel::Scheme::doo_sabin(),
-        _ => return None,
+        Scheme::Sqrt3 | Scheme::ModifiedButterfly | Scheme::LabsikGreiner => return None,
     };
-    Some(ours.with_boundary(match boundary {
+    let ours = ours.with_boundary(match task.options.boundary {
         Boundary::None => carvel::Boundary::None,
         Boundary::Edge => carvel::Boundary::Edge,
         Boundary::EdgeAndCorner => carvel::Boundary::EdgeAndCorner,
+    });
+    let ours = ours.with_creasing(match task.options.creasing {
+        Creasing::Uniform => carvel::scheme::Creasing::Uniform,
+        Creasing::Chaikin => carvel::scheme::Creasing::Chaikin,
+    });
+    Some(ours.with_triangle_rule(match task.options.triangles {
+        Triangles::CatmullClark => TriangleRule::CatmullClark,
+        Triangles::Smooth => TriangleRule::Smooth,
     }))
 }
 
-/// carvel's mesh of a soup without tags.
+/// carvel's mesh of a soup with its tags. What is no manifold is made sharp, as
+/// OpenSubdiv does without being asked.
 ///
 /// # Errors
 /// What carvel does not take.
 pub fn mesh(control: &Control) -> Result<Mesh> {
-    Mesh::from_polygons(control.vertices(), &control.sizes, &control.indices)
-        .map_err(|error| error.to_string())
+    let crease =
+        |it: &crate::Crease| carvel::Crease { vertices: it.vertices, sharpness: it.sharpness };
+    let sharp = |it: &crate::SharpVertex| carvel::SharpVertex {
+        vertex: it.vertex,
+        sharpness: it.sharpness,
+    };
+    let (creases, sharp_vertices): (Vec<_>, Vec<_>) = (
+        control.creases.iter().map(crease).collect(),
+        control.sharp_vertices.iter().map(sharp).collect(),
+    );
+    let options = BuildOptions {
+        non_manifold: NonManifold::Sharpen,
+        creases: &creases,
+        sharp_vertices: &sharp_vertices,
+        holes: &control.holes,
+        ..BuildOptions::default()
+    };
+    let (sizes, indices) = (&control.sizes, &control.indices);
+    build(&Context::serial(), control.vertices(), sizes, indices, &options)
+        .map(|built| built.mesh)
+        .map_err(|defects| Error::from(defects).to_string())
 }
 
 /// The control mesh in carvel's order of faces, and the caller's face for each.
@@ -37,34 +83,81 @@ pub fn control(control: &Control) -> Result<(Ours, Vec<u32>)> {
     Ok((Ours::control(mesh.vertices(), sizes, indices), sources))
 }
 
-/// carvel's answer to a task without tags, in its own numbering.
+/// carvel's answer to a task.
 ///
 /// # Errors
 /// What carvel does not take or does not have.
-pub fn refine(
-    control: &Control,
-    scheme: Scheme,
-    boundary: Boundary,
-    precision: Precision,
+pub fn refine(task: &Task, levels: u32) -> Result<Answer> {
+    carry(task, levels, Values::Vertex, &[], 1)
+}
+
+/// carvel's answer to a task, with values of any width on vertices.
+///
+/// # Errors
+/// As [`refine`].
+pub fn carry(
+    task: &Task,
     levels: u32,
-) -> Result<PeerMesh> {
-    let ours = self::scheme(scheme, boundary);
-    let ours = ours.ok_or_else(|| format!("carvel does not have {}", scheme.name()))?;
-    let mesh = mesh(control)?;
-    match precision {
-        Precision::Single => {
-            let positions: Vec<f32> = control.positions.iter().map(|&x| x as f32).collect();
-            run(&Task::new(&mesh, &ours, levels, &positions))
-        }
-        Precision::Double => run(&Task::new(&mesh, &ours, levels, &control.positions)),
+    kind: Values,
+    values: &[f64],
+    width: usize,
+) -> Result<Answer> {
+    let positions = &task.control.positions;
+    let given = Given { task, levels, kind, width };
+    match task.precision {
+        Precision::Single => given.run(&singles(positions), &singles(values)),
+        Precision::Double => given.run(positions, values),
     }
 }
 
-fn run<T: carvel::base::Scalar>(task: &Task<T>) -> Result<PeerMesh> {
-    let refined = Refiner::new().refine(&Context::serial(), task).map_err(|e| e.to_string())?;
-    Ok(PeerMesh {
-        sizes: refined.face_sizes,
-        indices: refined.face_vertices,
-        positions: refined.positions.iter().map(|x| x.to_f64()).collect(),
-    })
+fn singles(values: &[f64]) -> Vec<f32> {
+    values.iter().map(|&x| x as f32).collect()
+}
+
+fn doubles<T: Scalar>(values: &[T]) -> Vec<f64> {
+    values.iter().map(|x| x.to_f64()).collect()
+}
+
+struct Given<'a> {
+    task: &'a Task<'a>,
+    levels: u32,
+    kind: Values,
+    width: usize,
+}
+
+impl Given<'_> {
+    fn run<T: Scalar>(&self, positions: &[T], values: &[T]) -> Result<Answer> {
+        let ours = scheme(self.task);
+        let ours = ours.ok_or_else(|| format!("carvel lacks {}", self.task.scheme.name()))?;
+        let mesh = mesh(self.task.control)?;
+        let attributes: Vec<_> = match (values, self.kind) {
+            ([], _) => Vec::new(),
+            (_, Values::Varying) => vec![Attribute::varying(values, self.width)],
+            _ => vec![Attribute::vertex(values, self.width)],
+        };
+        let mut task = carvel::Task::new(&mesh, &ours, self.levels, positions);
+        task.attributes = &attributes;
+        task.face_sources = true;
+        let refined = Refiner::new().refine(&Context::serial(), &task).map_err(one_line)?;
+        let holes = ours.holes(&mesh).map_err(one_line)?;
+        Ok(answer(&refined, &holes))
+    }
+}
+
+#[expect(clippy::needless_pass_by_value, reason = "map_err gives it away")]
+fn one_line(error: Error) -> String {
+    error.to_string()
+}
+
+fn answer<T: Scalar>(refined: &Refined<T>, holes: &[u32]) -> Answer {
+    let is_hole = |source: &u32| holes.binary_search(source).is_ok();
+    Answer {
+        mesh: PeerMesh {
+            sizes: refined.face_sizes.clone(),
+            indices: refined.face_vertices.clone(),
+            positions: doubles(&refined.positions),
+        },
+        holes: refined.face_sources.iter().map(is_hole).collect(),
+        values: refined.attributes.first().map(|it| doubles(it)).unwrap_or_default(),
+    }
 }

@@ -12,7 +12,9 @@ fn cgal(control: &Control, precision: Precision, levels: u32) -> PeerMesh {
 }
 
 fn carvel(control: &Control, boundary: Boundary, precision: Precision, levels: u32) -> PeerMesh {
-    ours::refine(control, SCHEME, boundary, precision, levels).expect("carvel")
+    let mut task = Task::new(control, SCHEME, precision);
+    task.options.boundary = boundary;
+    ours::refine(&task, levels).expect("carvel").mesh
 }
 
 fn agree(control: &Control, boundary: Boundary, levels: u32, what: &str) {

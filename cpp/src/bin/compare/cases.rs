@@ -1,7 +1,7 @@
 //! What is compared: schemes, meshes and levels.
 
 use carvel::io::{self, ReadOptions};
-use carvel_peers::{Boundary, Control, PEERS, Peer, Scheme, ours, shapes};
+use carvel_peers::{Control, PEERS, Peer, Precision, Scheme, Task, ours, shapes};
 use std::path::Path;
 
 use crate::args::Args;
@@ -55,7 +55,8 @@ pub fn all(args: &Args) -> Result<Box<dyn Iterator<Item = Case>>, String> {
 /// True if a scheme is to be run on a mesh: if carvel has it, and on the built-in
 /// triangles only if it needs them.
 fn fits(scheme: Scheme, triangles: bool, chosen: bool) -> bool {
-    let both = ours::scheme(scheme, Boundary::default()).is_some();
+    let nothing = Control::default();
+    let both = ours::scheme(&Task::new(&nothing, scheme, Precision::Single)).is_some();
     both && (triangles == scheme.needs_triangles() || (chosen && !scheme.needs_triangles()))
 }
 

@@ -1,6 +1,6 @@
 //! One row: answers first, then times and memory.
 
-use carvel_peers::lineage::{Split, match_levels};
+use carvel_peers::lineage::match_refinement;
 use carvel_peers::normalise::{Border, border};
 use carvel_peers::{
     Boundary, Comparison, OpenSubdiv, Peer, PeerMesh, Precision, Scheme, Task, heap, ours,
@@ -21,9 +21,11 @@ struct Taken {
 
 /// Measures a case against a peer.
 pub fn row(case: &Case, peer: &dyn Peer, regime: Regime, runs: u32) -> Result<Row, String> {
-    let boundary = boundary(peer, case.scheme);
-    let (comparison, faces) = compare(case, peer, boundary)?;
-    let scheme = ours::scheme(case.scheme, boundary);
+    let task = Task::new(&case.control, case.scheme, Precision::Single);
+    let mut ours_task = task;
+    ours_task.options.boundary = boundary(peer, case.scheme);
+    let (comparison, faces) = compare(case, peer, &task, &ours_task)?;
+    let scheme = ours::scheme(&ours_task);
     let given = Given {
         mesh: ours::mesh(&case.control)?,
         scheme: scheme.ok_or_else(|| format!("carvel does not have {}", case.scheme.name()))?,
@@ -31,7 +33,7 @@ pub fn row(case: &Case, peer: &dyn Peer, regime: Regime, runs: u32) -> Result<Ro
         positions: case.control.positions.iter().map(|&x| x as f32).collect(),
     };
     let fresh = regime != Regime::ReUsed;
-    let run = peer.start(&Task::new(&case.control, case.scheme, Precision::Single))?;
+    let run = peer.start(&task)?;
     let mut theirs = Theirs { run, level: case.level, fresh };
     let (ours, theirs) = if fresh {
         alternate(&mut Fresh::new(&given), &mut theirs, runs)?
@@ -77,26 +79,27 @@ fn boundary(peer: &dyn Peer, scheme: Scheme) -> Boundary {
 }
 
 /// Compares the answers; also the number of faces of ours.
-fn compare(case: &Case, peer: &dyn Peer, boundary: Boundary) -> Result<(Comparison, u64), String> {
-    let ours = ours::refine(&case.control, case.scheme, boundary, Precision::Single, case.level)?;
+fn compare(
+    case: &Case,
+    peer: &dyn Peer,
+    task: &Task,
+    ours_task: &Task,
+) -> Result<(Comparison, u64), String> {
+    let ours = ours::refine(ours_task, case.level)?.mesh;
     let faces = ours.sizes.len() as u64;
-    let task = Task::new(&case.control, case.scheme, Precision::Single);
     if peer.name() == OpenSubdiv.name() {
-        return Ok((through_parents(case, &task, &ours)?, faces));
+        return Ok((through_parents(task, case.level, &ours)?, faces));
     }
-    let theirs = peer.refine(&task, case.level)?;
+    let theirs = peer.refine(task, case.level)?;
     Ok((Comparison::through_adjacency(&ours, &theirs), faces))
 }
 
-/// OpenSubdiv's answer, matched level by level.
-fn through_parents(case: &Case, task: &Task, ours: &PeerMesh) -> Result<Comparison, String> {
-    let refinement = OpenSubdiv.refinement(task, case.level)?;
-    let split = if case.scheme == Scheme::Loop { Split::Triangle } else { Split::Quad };
-    let levels = (0..=case.level).map(|n| refinement.level(n)).collect::<Result<Vec<_>, _>>()?;
-    let (control, sources) = ours::control(&case.control)?;
-    let (laid, at) = match_levels(&control, sources, split, &levels)?;
+/// OpenSubdiv's answer, matched level by level. Our faces are also held to the
+/// documented numbering.
+fn through_parents(task: &Task, level: u32, ours: &PeerMesh) -> Result<Comparison, String> {
+    let refinement = OpenSubdiv.refinement(task, level)?;
+    let (laid, at) = match_refinement(task, &refinement, level)?;
     let mut comparison = Comparison::of(ours, &refinement.mesh()?, &at);
-    // Our faces are also numbered as documented.
     comparison.same_faces &= laid.level.indices == ours.indices;
     Ok(comparison)
 }
