@@ -62,7 +62,9 @@ impl<'v, T: Scalar, const W: usize> EdgeKernel<'v, T, W> {
         // Faces of one size, one mask for all, and no edge with more than two sides.
         let several = masks.minds_triangles() && layout.irregular_faces() > 0;
         let bulk = match (split.pieces(), layout.side()) {
-            (Pieces::Quads, 4) | (Pieces::Triangles, 3) if parent.is_manifold() && !several => {
+            (Pieces::Quads, 4) | (Pieces::Triangles, 3)
+                if parent.joints.sides.is_empty() && !several =>
+            {
                 layout.irregular_corners()..layout.corners()
             }
             _ => 0..0,

@@ -1,7 +1,7 @@
 //! The mesh that a quad or triangle split leaves: every twin by arithmetic.
 
 use super::adjacency::{Recycled, sized};
-use super::creasing::Creasing;
+use super::creasing::{Creasing, vertices_left};
 use super::primal_split::{Pieces, PrimalSplit};
 use crate::base::{Context, NONE, Result, memory};
 use crate::mesh::{Joints, Layout, Mesh, Sharpness, VertexSet};
@@ -38,7 +38,7 @@ impl PrimalSplit<'_> {
             near: None,
             sharpness: Sharpness {
                 edges: self.sharp_edges(creasing)?,
-                vertices: creasing.vertices(&self.parent.sharpness.vertices)?,
+                vertices: vertices_left(&self.parent.sharpness.vertices)?,
             },
             joints: self.joints()?,
             holes: self.children_of(holes)?,
