@@ -2,9 +2,11 @@
 
 use crate::lineage::Ours;
 use crate::opensubdiv::Values;
-use crate::{Boundary, Control, Creasing, PeerMesh, Precision, Result, Scheme, Task, Triangles};
+use crate::{
+    Boundary, Control, Creasing, FaceVarying, PeerMesh, Precision, Result, Scheme, Task, Triangles,
+};
 use carvel::base::Scalar;
-use carvel::mesh::{BuildOptions, NonManifold, build};
+use carvel::mesh::{BuildOptions, Channel, FaceVaryingMode, NonManifold, build};
 use carvel::scheme::TriangleRule;
 use carvel::{Attribute, Context, Error, Mesh, Refined, Refiner};
 
@@ -16,6 +18,17 @@ pub struct Answer {
     /// True for its faces that are holes.
     pub holes: Vec<bool>,
     /// Values refined with it.
+    pub values: Vec<f64>,
+    /// The face-varying channels of the task.
+    pub channels: Vec<Varied>,
+}
+
+/// A refined face-varying channel.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Varied {
+    /// One index per corner of the last level.
+    pub indices: Vec<u32>,
+    /// The values, record after record.
     pub values: Vec<f64>,
 }
 
@@ -70,6 +83,24 @@ pub fn mesh(control: &Control) -> Result<Mesh> {
     build(&Context::serial(), control.vertices(), sizes, indices, &options)
         .map(|built| built.mesh)
         .map_err(|defects| Error::from(defects).to_string())
+}
+
+/// carvel's channels of a task, each with its values in the precision asked for.
+fn channels<T: Scalar>(task: &Task, mesh: &Mesh) -> Result<Vec<(Channel, Vec<T>, usize)>> {
+    let mode = match task.options.face_varying {
+        FaceVarying::Smooth => FaceVaryingMode::Smooth,
+        FaceVarying::CornersOnly => FaceVaryingMode::Corners,
+        FaceVarying::CornersPlus1 => FaceVaryingMode::CornersPlus1,
+        FaceVarying::CornersPlus2 => FaceVaryingMode::CornersPlus2,
+        FaceVarying::Boundaries => FaceVaryingMode::Boundaries,
+        FaceVarying::All => FaceVaryingMode::All,
+    };
+    let channel = |it: &crate::Channel| {
+        let channel = Channel::new(mesh, &it.indices, it.values.len() / it.width, mode);
+        let values = it.values.iter().map(|&x| T::from_f64(x)).collect();
+        channel.map(|channel| (channel, values, it.width)).map_err(one_line)
+    };
+    task.control.channels.iter().map(channel).collect()
 }
 
 /// The control mesh in carvel's order of faces, and the caller's face for each.
@@ -135,8 +166,18 @@ impl Given<'_> {
             (_, Values::Varying) => vec![Attribute::varying(values, self.width)],
             _ => vec![Attribute::vertex(values, self.width)],
         };
+        let channels = channels::<T>(self.task, &mesh)?;
+        let channels: Vec<_> = channels
+            .iter()
+            .map(|(channel, values, width)| carvel::hierarchy::FaceVarying {
+                channel,
+                values,
+                width: *width,
+            })
+            .collect();
         let mut task = carvel::Task::new(&mesh, &ours, self.levels, positions);
         task.attributes = &attributes;
+        task.channels = &channels;
         task.face_sources = true;
         let refined = Refiner::new().refine(&Context::serial(), &task).map_err(one_line)?;
         let holes = ours.holes(&mesh).map_err(one_line)?;
@@ -158,6 +199,11 @@ fn answer<T: Scalar>(refined: &Refined<T>, holes: &[u32]) -> Answer {
             positions: doubles(&refined.positions),
         },
         holes: refined.face_sources.iter().map(is_hole).collect(),
+        channels: refined
+            .channels
+            .iter()
+            .map(|it| Varied { indices: it.indices.clone(), values: doubles(&it.values) })
+            .collect(),
         values: refined.attributes.first().map(|it| doubles(it)).unwrap_or_default(),
     }
 }

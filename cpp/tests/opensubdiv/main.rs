@@ -5,6 +5,7 @@
 
 mod against;
 mod creases;
+mod face_varying;
 mod features;
 mod meshes;
 mod values;

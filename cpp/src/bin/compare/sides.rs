@@ -106,6 +106,7 @@ impl Side for ReUsed<'_> {
             face_sources: None,
             positions: &mut self.positions,
             attributes: Vec::new(),
+            channels: Vec::new(),
         };
         self.refiner
             .refine_into(&Context::serial(), &self.given.task(), output)
