@@ -195,14 +195,9 @@ impl<'a> PrimalStep<'a> {
             old.copy_from_slice(values);
             return Ok(());
         }
-        let kernel = VertexKernel::new(self.split, values, faces);
         context.fill(old, 1, |start, part| {
-            let mut masks = self.masks.clone();
-            for (v, slot) in (start as u32..).zip(part) {
-                if !self.ruled.contains(v) {
-                    *slot = kernel.value(v, &mut masks);
-                }
-            }
+            let mut kernel = VertexKernel::new(self.split, &self.masks, values, faces);
+            kernel.run(start as u32, part, &self.ruled);
         })?;
         let (mut rows, mut sum) = (self.rows(), Points::new(values, faces));
         for &v in &self.ruled_vertices {
