@@ -27,8 +27,7 @@ fn seamed(mut control: Control, seams: &[[u32; 2]]) -> Control {
         }
         first += face.len();
     }
-    for (&(a, b), sides) in at.iter().filter(|((a, b), _)| !is_seam(*a, *b)) {
-        let _ = (a, b);
+    for (_, sides) in at.iter().filter(|((a, b), _)| !is_seam(*a, *b)) {
         for pair in sides.windows(2) {
             join(&mut indices, pair[0].0, pair[1].0);
             join(&mut indices, pair[0].1, pair[1].1);
