@@ -162,18 +162,7 @@ impl Scheme {
     pub fn check(&self, mesh: &Mesh) -> Result<()> {
         let unsupported = |message: String| Err(Error::new(ErrorKind::Unsupported, message));
         if self.method == Method::Loop {
-            let other = (0..mesh.faces()).find(|&f| mesh.face_corners(f).len() != 3);
-            return match other {
-                Some(_) if mesh.layout.side() == 3 => Ok(()),
-                None => Ok(()),
-                Some(face) => {
-                    let (size, face) = (mesh.face_corners(face).len(), mesh.face_source(face));
-                    let message =
-                        format!("Loop refines triangles only, face {face} has {size} sides");
-                    let element = Element::Face(face as u64);
-                    Err(Error::new(ErrorKind::Unsupported, message).with_elements([element]))
-                }
-            };
+            return check_triangles(mesh);
         }
         let averages = self.method == Method::Dual || !self.passes.is_empty();
         if averages && !mesh.is_manifold() {
@@ -240,4 +229,19 @@ impl Scheme {
         const BEYOND_CREASE: f64 = 2.0;
         if self.creases() { BEYOND_CREASE } else { self.averaging_growth() }
     }
+}
+
+/// Names the first face, in the caller's order, that is no triangle.
+fn check_triangles(mesh: &Mesh) -> Result<()> {
+    if mesh.layout.side() == 3 {
+        return Ok(());
+    }
+    let others = (0..mesh.faces()).filter(|&f| mesh.face_corners(f).len() != 3);
+    let first = others.min_by_key(|&f| mesh.face_source(f));
+    first.map_or(Ok(()), |face| {
+        let (size, face) = (mesh.face_corners(face).len(), mesh.face_source(face));
+        let message = format!("Loop refines triangles only, face {face} has {size} sides");
+        let element = Element::Face(face as u64);
+        Err(Error::new(ErrorKind::Unsupported, message).with_elements([element]))
+    })
 }
