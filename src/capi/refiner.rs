@@ -7,11 +7,11 @@ use super::object::{destroy_function, look, object, poisoned};
 use super::status::{
     CARVEL_STATUS_BUSY, CARVEL_STATUS_LENGTH_MISMATCH, Fault, Result, carvel_status,
 };
-use super::values::{ConstValues, Records, Sink, Source, Values, carvel_indices};
+use super::values::{ConstValues, Records, Sink, Source, Values, carvel_indices, interpolation};
 use super::versioned::{init_function, read, versioned, write_field};
 use super::{carvel_context, carvel_error, carvel_mesh, carvel_scheme};
 use crate::base::{Context, Scalar};
-use crate::hierarchy::{Attribute, Output, Prediction, Refiner, Task};
+use crate::hierarchy::{Attribute, Interpolation, Output, Prediction, Refiner, Task};
 use crate::mesh::Mesh;
 use crate::scheme::Scheme;
 use std::mem::offset_of;
@@ -70,6 +70,7 @@ versioned! {
         pub positions: ConstValues<T>,
         pub attributes: *const ConstValues<T>,
         pub attribute_count: u64,
+        pub interpolations: *const i32,
     }
 }
 
@@ -123,6 +124,26 @@ impl<T: Scalar> RefineInput<T> {
             records.push(attribute.check(vertices, name)?);
         }
         Ok(records)
+    }
+
+    /// How each attribute is refined; all by the scheme's rows, if nothing is said.
+    ///
+    /// # Safety
+    /// `interpolations` is NULL or leads to one for each attribute, of which there are
+    /// as many as [`Self::check`] allows.
+    unsafe fn interpolations(&self, scheme: &Scheme) -> Result<Vec<Interpolation>> {
+        let count = self.attribute_count;
+        if self.interpolations.is_null() {
+            return Ok(vec![Interpolation::Vertex; count as usize]);
+        }
+        // SAFETY: the caller's contract.
+        let kinds = unsafe { input(self.interpolations, count, "input.interpolations")? };
+        let check = |&kind: &i32| {
+            let kind = interpolation(kind)?;
+            scheme.check_interpolation(kind)?;
+            Ok(kind)
+        };
+        kinds.iter().map(check).collect()
     }
 }
 
@@ -216,6 +237,7 @@ struct Job<'a, T> {
     scheme: &'a Scheme,
     plan: Prediction,
     inputs: AllRecords<*const T>,
+    interpolations: Vec<Interpolation>,
     outputs: AllRecords<*mut T>,
     faces: Faces,
 }
@@ -235,7 +257,8 @@ impl<'a, T: Precision> Job<'a, T> {
         let (mesh, scheme) =
             unsafe { (&*call.object(input.mesh)?.mesh, call.object(input.scheme)?) };
         // SAFETY: the caller's contract.
-        let inputs = unsafe { input.check(mesh)? };
+        let (inputs, interpolations) =
+            unsafe { (input.check(mesh)?, input.interpolations(scheme)?) };
         let plan = Prediction::new(mesh, scheme, input.levels)?;
         plan.check_index_type()?;
         // What no buffer can change comes before the buffers, as the header says.
@@ -248,7 +271,7 @@ impl<'a, T: Precision> Job<'a, T> {
         let copies = copies.saturating_add(input_copies(&inputs));
         context.check_memory(scratch.saturating_add(copies))?;
         let outputs = output.check(attributes, plan.last().vertices, &inputs)?;
-        let job = Self { mesh, scheme, plan, inputs, outputs, faces };
+        let job = Self { mesh, scheme, plan, inputs, interpolations, outputs, faces };
         job.check_overlap(places, input, output)?;
         Ok(job)
     }
@@ -263,12 +286,14 @@ impl<'a, T: Precision> Job<'a, T> {
         // Both lists have one entry for each attribute.
         let count = self.inputs.len() - 1;
         let (read, written) = (size_of::<ConstValues<T>>(), size_of::<Values<T>>());
+        let kinds = if input.interpolations.is_null() { 0 } else { count * size_of::<i32>() };
         let lists = [
             Span::of(input.attributes, count * read, false, "input.attributes"),
+            Span::of(input.interpolations, kinds, false, "input.interpolations"),
             Span::of(output.attributes, count * written, false, "output.attributes"),
         ];
         let values = self.inputs.len() + self.outputs.len();
-        let mut spans = Vec::with_capacity(values + 8);
+        let mut spans = Vec::with_capacity(values + 9);
         spans.extend(places.into_iter().chain(lists));
         self.faces.add_spans(&mut spans)?;
         spans.extend(self.inputs.iter().map(Records::read_span));
@@ -283,7 +308,16 @@ impl<'a, T: Precision> Job<'a, T> {
     unsafe fn run(self, context: &Context, refiner: &mut Refiner<T>) -> Result<bool> {
         // SAFETY: the caller's contract; overlap has been checked.
         let (inputs, mut sinks) = unsafe { (self.sources()?, self.sinks()?) };
-        let attributes: Vec<_> = inputs.iter().zip(&self.inputs).skip(1).map(attribute).collect();
+        let attributes: Vec<_> = inputs[1..]
+            .iter()
+            .zip(&self.inputs[1..])
+            .zip(&self.interpolations)
+            .map(|((source, records), &interpolation)| Attribute {
+                values: source.values(),
+                width: records.width,
+                interpolation,
+            })
+            .collect();
         let levels = self.plan.levels().len() as u32 - 1;
         let mut task = Task::new(self.mesh, self.scheme, levels, inputs[0].values());
         task.attributes = &attributes;
@@ -329,10 +363,6 @@ impl<'a, T: Precision> Job<'a, T> {
         // SAFETY: the caller's contract.
         self.outputs.iter().map(|records| unsafe { records.sink() }).collect()
     }
-}
-
-fn attribute<'s, T, P>((source, records): (&'s Source<T>, &Records<P>)) -> Attribute<'s, T> {
-    Attribute::vertex(source.values(), records.width)
 }
 
 /// Offsets from the sizes, which stand in the offsets themselves if there is no
