@@ -676,17 +676,23 @@ inline carvel_status refine(carvel_refiner *refiner, const carvel_context *conte
 {
     return carvel_refiner_refine_f64(refiner, context, input, output, error);
 }
-inline carvel_status refine(const carvel_hierarchy *hierarchy, const carvel_context *context,
-                            std::uint32_t level, const carvel_const_values_f32 *values,
-                            const carvel_values_f32 *out, carvel_error *error)
+inline carvel_status interpolate(const carvel_hierarchy *hierarchy,
+                                 const carvel_context *context, std::uint32_t level,
+                                 carvel_interpolation interpolation,
+                                 const carvel_const_values_f32 *values,
+                                 const carvel_values_f32 *out, carvel_error *error)
 {
-    return carvel_hierarchy_refine_f32(hierarchy, context, level, values, out, error);
+    return carvel_hierarchy_interpolate_f32(
+        hierarchy, context, level, static_cast<std::int32_t>(interpolation), values, out, error);
 }
-inline carvel_status refine(const carvel_hierarchy *hierarchy, const carvel_context *context,
-                            std::uint32_t level, const carvel_const_values_f64 *values,
-                            const carvel_values_f64 *out, carvel_error *error)
+inline carvel_status interpolate(const carvel_hierarchy *hierarchy,
+                                 const carvel_context *context, std::uint32_t level,
+                                 carvel_interpolation interpolation,
+                                 const carvel_const_values_f64 *values,
+                                 const carvel_values_f64 *out, carvel_error *error)
 {
-    return carvel_hierarchy_refine_f64(hierarchy, context, level, values, out, error);
+    return carvel_hierarchy_interpolate_f64(
+        hierarchy, context, level, static_cast<std::int32_t>(interpolation), values, out, error);
 }
 
 } // namespace detail
@@ -800,9 +806,17 @@ struct SchemeDesc {
     Fraction w = {0, 0};
     /* B_SPLINE only. */
     std::uint64_t degree = 0;
-    /* AVERAGING only; read by create and not kept. */
+    /* AVERAGING and PRIMAL only; read by create and not kept. */
     Span<const Fraction> passes = {};
+    /* CATMULL_CLARK and LOOP only. */
+    carvel_creasing creasing = CARVEL_CREASING_UNIFORM;
+    /* CATMULL_CLARK only. */
+    carvel_triangle_rule triangle_rule = CARVEL_TRIANGLE_RULE_CATMULL_CLARK;
+    /* LOOP only. */
+    carvel_loop_weights loop_weights = CARVEL_LOOP_WEIGHTS_LOOP;
 };
+
+class Mesh;
 
 class Scheme : public detail::Handle<carvel_scheme, detail::destroy> {
 public:
@@ -821,10 +835,16 @@ public:
         c.degree = desc.degree;
         c.passes = desc.passes.data();
         c.pass_count = desc.passes.size();
+        c.creasing = static_cast<std::int32_t>(desc.creasing);
+        c.triangle_rule = static_cast<std::int32_t>(desc.triangle_rule);
+        c.loop_weights = static_cast<std::int32_t>(desc.loop_weights);
         carvel_scheme *out = nullptr;
         call.status = carvel_scheme_create(&c, &out, call.error());
         return call.result(Scheme(out));
     }
+
+    /* The faces of a mesh, ascending in its own order, that are holes. */
+    Result<std::vector<std::uint32_t>> try_holes(const Mesh &mesh) const;
 
     /* The smoothing passes that the scheme comes down to, in lowest terms. */
     Result<std::vector<Fraction>> try_passes() const
@@ -841,6 +861,7 @@ public:
 #if CARVEL_HPP_THROWS
     static Scheme create(const SchemeDesc &desc = {}) { return try_create(desc).value(); }
     std::vector<Fraction> passes() const { return try_passes().value(); }
+    std::vector<std::uint32_t> holes(const Mesh &mesh) const { return try_holes(mesh).value(); }
 #endif
 };
 
@@ -888,12 +909,21 @@ struct Faces {
     Span<const std::uint32_t> face_vertices;
 };
 
+/* Arrays are read by create and not kept. */
 struct MeshOptions {
     carvel_non_manifold non_manifold = CARVEL_NON_MANIFOLD_REFUSE;
     /* The faces are the result of a refinement that said so. */
     bool anchored = false;
-    /* Boundary vertices to interpolate; read by create and not kept. */
+    /* Boundary vertices to interpolate. */
     Span<const std::uint32_t> corner_tags = {};
+    /* Creases: two vertices each, and the sharpness of each. */
+    Span<const std::uint32_t> crease_vertices = {};
+    Span<const float> crease_sharpness = {};
+    /* Sharp vertices, and the sharpness of each. */
+    Span<const std::uint32_t> sharp_vertices = {};
+    Span<const float> vertex_sharpness = {};
+    /* Faces that are refined but left out of what is drawn. */
+    Span<const std::uint32_t> holes = {};
 };
 
 class Mesh : public detail::Handle<carvel_mesh, detail::destroy> {
@@ -905,6 +935,10 @@ public:
     static Result<Mesh> try_create(const Faces &faces, const MeshOptions &options = {},
                                    const Context *context = nullptr)
     {
+        const bool pairs = options.crease_vertices.size() == 2 * options.crease_sharpness.size();
+        if (!pairs || options.sharp_vertices.size() != options.vertex_sharpness.size())
+            return Failure(CARVEL_STATUS_LENGTH_MISMATCH,
+                           "a crease is two vertices and a sharpness, a sharp vertex one of each");
         detail::Call call;
         carvel_mesh_desc c = detail::sized<carvel_mesh_desc>();
         c.face_size = faces.face_size;
@@ -918,6 +952,14 @@ public:
         c.anchored = options.anchored ? 1 : 0;
         c.corner_tags = options.corner_tags.data();
         c.corner_tag_count = options.corner_tags.size();
+        c.crease_vertices = options.crease_vertices.data();
+        c.crease_sharpness = options.crease_sharpness.data();
+        c.crease_count = options.crease_sharpness.size();
+        c.sharp_vertices = options.sharp_vertices.data();
+        c.vertex_sharpness = options.vertex_sharpness.data();
+        c.sharp_vertex_count = options.sharp_vertices.size();
+        c.holes = options.holes.data();
+        c.hole_count = options.holes.size();
         carvel_mesh *out = nullptr;
         call.status = carvel_mesh_create(detail::raw(context), &c, &out, call.error());
         return call.result(Mesh(out));
@@ -996,11 +1038,32 @@ public:
     }
     Result<Indices> try_corner_tags() const
     {
-        const Result<Survey> survey = try_survey();
-        if (!survey)
-            return survey.error();
-        return fill<std::uint32_t>(carvel_mesh_corner_tags, survey->corner_tags);
+        return tags<std::uint32_t>(carvel_mesh_corner_tags, &Survey::corner_tags);
     }
+    /* Two vertices for each crease. */
+    Result<Indices> try_crease_vertices() const
+    {
+        return tags<std::uint32_t>(carvel_mesh_crease_vertices, &Survey::creases, 2);
+    }
+    Result<std::vector<float>> try_crease_sharpness() const
+    {
+        return tags<float>(carvel_mesh_crease_sharpness, &Survey::creases);
+    }
+    Result<Indices> try_sharp_vertices() const
+    {
+        return tags<std::uint32_t>(carvel_mesh_sharp_vertices, &Survey::sharp_vertices);
+    }
+    Result<std::vector<float>> try_vertex_sharpness() const
+    {
+        return tags<float>(carvel_mesh_vertex_sharpness, &Survey::sharp_vertices);
+    }
+    Result<Indices> try_holes() const
+    {
+        return tags<std::uint32_t>(carvel_mesh_holes, &Survey::holes);
+    }
+
+    /* False where CARVEL_NON_MANIFOLD_SHARPEN has kept what is not manifold. */
+    bool is_manifold() const noexcept { return carvel_mesh_is_manifold(get()) != 0; }
 
     /* Checks every stored invariant. */
     Result<void> try_validate() const
@@ -1033,6 +1096,11 @@ public:
     Indices face_sources() const { return try_face_sources().value(); }
     Indices vertex_sources() const { return try_vertex_sources().value(); }
     Indices corner_tags() const { return try_corner_tags().value(); }
+    Indices crease_vertices() const { return try_crease_vertices().value(); }
+    std::vector<float> crease_sharpness() const { return try_crease_sharpness().value(); }
+    Indices sharp_vertices() const { return try_sharp_vertices().value(); }
+    std::vector<float> vertex_sharpness() const { return try_vertex_sharpness().value(); }
+    Indices holes() const { return try_holes().value(); }
     void validate() const { try_validate().value(); }
 #endif
 
@@ -1051,6 +1119,16 @@ private:
     }
 
     template <class T>
+    Result<std::vector<T>> tags(Getter<T> getter, std::uint64_t Survey::*size,
+                                std::uint64_t factor = 1) const
+    {
+        const Result<Survey> survey = try_survey();
+        if (!survey)
+            return survey.error();
+        return fill<T>(getter, (*survey).*size * factor);
+    }
+
+    template <class T>
     Result<std::vector<T>> fill(Getter<T> getter, std::uint64_t size) const
     {
         detail::Call call;
@@ -1060,6 +1138,18 @@ private:
         return call.result(std::move(out));
     }
 };
+
+inline Result<std::vector<std::uint32_t>> Scheme::try_holes(const Mesh &mesh) const
+{
+    detail::Call call;
+    std::vector<std::uint32_t> out;
+    std::uint64_t count = 0;
+    call.status = carvel_scheme_holes(get(), mesh.get(), nullptr, 0, &count, call.error());
+    if (call.status == CARVEL_STATUS_OK && call.grow(out, count))
+        call.status =
+            carvel_scheme_holes(get(), mesh.get(), out.data(), count, nullptr, call.error());
+    return call.result(std::move(out));
+}
 
 /* ==========================================================================
  * Predictions: what a level will cost, before anything is built
@@ -1113,8 +1203,11 @@ struct RefineInput {
     std::uint32_t levels;
     /* xyz of every vertex. */
     ConstValues<T> positions;
-    /* Further values on vertices, refined by the same rows. */
+    /* Further values on vertices. */
     Span<const ConstValues<T>> attributes = {};
+    /* One of enum carvel_interpolation for each attribute; empty for the scheme's
+     * own rows for all. */
+    Span<const std::int32_t> interpolations = {};
 };
 
 /* Where the result goes, in sizes of predict_counts; index arrays may be empty
@@ -1178,6 +1271,10 @@ public:
         static_assert(sizeof(ConstValues<T>) == sizeof(typename C::ConstValues) &&
                           sizeof(Values<T>) == sizeof(typename C::Values),
                       "carvel: arrays of these are arrays of the C structs");
+        if (!input.interpolations.empty() &&
+            input.interpolations.size() != input.attributes.size())
+            return Failure(CARVEL_STATUS_LENGTH_MISMATCH,
+                           "there is not one interpolation for each attribute");
         detail::Call call;
         auto in = detail::sized<typename C::Input>();
         in.levels = input.levels;
@@ -1186,6 +1283,7 @@ public:
         in.positions = input.positions;
         in.attributes = input.attributes.data();
         in.attribute_count = input.attributes.size();
+        in.interpolations = input.interpolations.data();
         auto out = detail::sized<typename C::Output>();
         out.face_sizes = {output.face_sizes.data(), output.face_sizes.size()};
         out.face_offsets = {output.face_offsets.data(), output.face_offsets.size()};
@@ -1372,20 +1470,35 @@ public:
     Result<void> try_refine_into(std::uint32_t level, const V &control, O &&out,
                                  const Context *context = nullptr) const
     {
-        const ConstValues from = values(control);
-        const Values to = values(out);
-        detail::Call call;
-        call.status =
-            detail::refine(get(), detail::raw(context), level, &from, &to, call.error());
-        return call.result();
+        return try_interpolate_into(level, CARVEL_INTERPOLATION_VERTEX, control, out, context);
     }
 
     /* Into a vector. */
     template <class V>
     auto try_refine(std::uint32_t level, const V &control, const Context *context = nullptr) const
     {
+        return try_interpolate(level, CARVEL_INTERPOLATION_VERTEX, control, context);
+    }
+
+    /* The same by rows of choice. */
+    template <class V, class O>
+    Result<void> try_interpolate_into(std::uint32_t level, carvel_interpolation interpolation,
+                                      const V &control, O &&out,
+                                      const Context *context = nullptr) const
+    {
         const ConstValues from = values(control);
-        return refine_values(level, from, context);
+        const Values to = values(out);
+        detail::Call call;
+        call.status = detail::interpolate(get(), detail::raw(context), level, interpolation, &from,
+                                          &to, call.error());
+        return call.result();
+    }
+    template <class V>
+    auto try_interpolate(std::uint32_t level, carvel_interpolation interpolation, const V &control,
+                         const Context *context = nullptr) const
+    {
+        const ConstValues from = values(control);
+        return interpolate_values(level, interpolation, from, context);
     }
 
     /* Where the vertices and the faces of a level, 1 to the last, come from. */
@@ -1438,6 +1551,18 @@ public:
     {
         return try_refine(level, control, context).value();
     }
+    template <class V, class O>
+    void interpolate_into(std::uint32_t level, carvel_interpolation interpolation,
+                          const V &control, O &&out, const Context *context = nullptr) const
+    {
+        try_interpolate_into(level, interpolation, control, out, context).value();
+    }
+    template <class V>
+    auto interpolate(std::uint32_t level, carvel_interpolation interpolation, const V &control,
+                     const Context *context = nullptr) const
+    {
+        return try_interpolate(level, interpolation, control, context).value();
+    }
     std::vector<Origin> vertex_origins(std::uint32_t level) const
     {
         return try_vertex_origins(level).value();
@@ -1454,8 +1579,10 @@ public:
 
 private:
     template <class T>
-    Result<std::vector<T>> refine_values(std::uint32_t level, const ConstValues<T> &from,
-                                         const Context *context) const
+    Result<std::vector<T>> interpolate_values(std::uint32_t level,
+                                              carvel_interpolation interpolation,
+                                              const ConstValues<T> &from,
+                                              const Context *context) const
     {
         const Result<Counts> counts = try_counts(level);
         if (!counts)
@@ -1464,13 +1591,13 @@ private:
         std::vector<T> out;
         /* What the library would refuse is refused before a vector is made. */
         const Values<T> nowhere(nullptr, 0, from.width);
-        call.status =
-            detail::refine(get(), detail::raw(context), level, &from, &nowhere, call.error());
+        call.status = detail::interpolate(get(), detail::raw(context), level, interpolation, &from,
+                                          &nowhere, call.error());
         if (call.status == CARVEL_STATUS_BUFFER_TOO_SMALL &&
             call.grow(out, counts->vertices, from.width)) {
             const Values<T> to(out.data(), counts->vertices, from.width);
-            call.status =
-                detail::refine(get(), detail::raw(context), level, &from, &to, call.error());
+            call.status = detail::interpolate(get(), detail::raw(context), level, interpolation,
+                                              &from, &to, call.error());
         }
         return call.result(std::move(out));
     }
