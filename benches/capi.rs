@@ -122,6 +122,7 @@ impl<'t> Hosts<'t> {
             face_sources: None,
             positions: &mut self.points,
             attributes: Vec::new(),
+            channels: Vec::new(),
         };
         self.refiner.refine_into(&self.context, &task, output).expect("it refines");
     }

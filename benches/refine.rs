@@ -163,6 +163,7 @@ fn one(
                 face_sources: None,
                 positions: &mut points,
                 attributes: Vec::new(),
+                channels: Vec::new(),
             };
             refiner.refine_into(&context, &task, output).expect("it refines");
         });

@@ -13,5 +13,5 @@ pub mod scheme;
 
 pub use base::{Context, Crease, Element, Error, ErrorKind, Fraction, Result, SharpVertex};
 pub use hierarchy::{Attribute, Hierarchy, Output, Prediction, Refined, Refiner, Task};
-pub use mesh::Mesh;
+pub use mesh::{Channel, FaceVaryingMode, Mesh};
 pub use scheme::{Boundary, CornerRule, Scheme};

@@ -154,6 +154,7 @@ impl Run<'_> {
             levels: self.levels,
             positions: &positions,
             attributes: &attributes,
+            channels: &[],
             face_sources: true,
         };
         let refined = Refiner::new().refine(self.context, &task);

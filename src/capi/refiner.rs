@@ -335,6 +335,7 @@ impl<'a, T: Precision> Job<'a, T> {
             face_sizes: sizes.as_deref_mut().or_else(|| Some(&mut offsets.as_deref_mut()?[1..])),
             face_vertices,
             face_sources,
+            channels: Vec::new(),
             positions: positions[0].values(),
             attributes: rest.iter_mut().map(Sink::values).collect(),
         };

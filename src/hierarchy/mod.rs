@@ -3,6 +3,7 @@
 //! This is where positions enter: they are checked for NaN and infinities on
 //! the way in and for overflow on the way out.
 
+mod channels;
 mod columns;
 mod dual_step;
 mod kernel;
@@ -14,6 +15,7 @@ mod refiner;
 mod step;
 mod values;
 
+pub use channels::{ChannelOutput, FaceVarying, RefinedChannel};
 pub use levels::Hierarchy;
 pub use predict::Prediction;
 pub use refiner::{Attribute, Output, Refined, Refiner, Task};

@@ -1,7 +1,7 @@
 //! What a refinement will cost, before anything is built.
 
 use crate::base::{Error, ErrorKind, Result};
-use crate::mesh::Mesh;
+use crate::mesh::{Channel, Mesh};
 use crate::refine::{Counts, PrimalSplit};
 use crate::scheme::{Scheme, SplitKind};
 
@@ -49,6 +49,17 @@ impl Prediction {
         }
         let primal = scheme.split() != SplitKind::Corner;
         Ok(Self { levels: counts, passes: scheme.passes().len(), primal })
+    }
+
+    /// Predicts the values of a face-varying channel: they are what the counts call
+    /// vertices, level 0 being the caller's own.
+    ///
+    /// # Errors
+    /// As [`Prediction::new`].
+    pub fn of_channel(channel: &Channel, scheme: &Scheme, levels: u32) -> Result<Self> {
+        let mut plan = Self::new(&channel.mesh, scheme, levels)?;
+        plan.levels[0].vertices = channel.values as u64;
+        Ok(plan)
     }
 
     /// The counts of a level.

@@ -7,6 +7,7 @@
 
 use super::kernel::{Value, narrow, widen};
 use crate::base::{NONE, Scalar};
+use crate::mesh::{Mesh, VertexSet, turn_in_quad};
 use crate::refine::{Pieces, PrimalSplit};
 use crate::scheme::{SmoothMasks, VertexMask};
 use std::ops::Range;
@@ -62,7 +63,9 @@ impl<'v, T: Scalar, const W: usize> EdgeKernel<'v, T, W> {
         // Faces of one size, one mask for all, and no edge with more than two sides.
         let several = masks.minds_triangles() && layout.irregular_faces() > 0;
         let bulk = match (split.pieces(), layout.side()) {
-            (Pieces::Quads, 4) | (Pieces::Triangles, 3) if parent.is_manifold() && !several => {
+            (Pieces::Quads, 4) | (Pieces::Triangles, 3)
+                if parent.joints.sides.is_empty() && !several =>
+            {
                 layout.irregular_corners()..layout.corners()
             }
             _ => 0..0,
@@ -97,11 +100,12 @@ impl<'v, T: Scalar, const W: usize> EdgeKernel<'v, T, W> {
     fn quads(&self, corners: Range<u32>, out: &mut Leading<Value<T, W>>) {
         let parent = self.split.parent();
         let layout = &parent.layout;
+        let (first_quad, first_face) = (layout.irregular_corners(), layout.irregular_faces());
         let range = corners.start as usize..corners.end as usize;
         let verts = parent.vert[range.clone()].as_chunks::<4>().0;
         let twins = parent.twin[range].as_chunks::<4>().0;
-        let faces = (corners.start..).step_by(4).zip(layout.face_of(corners.start)..);
-        for ((first, face), (v, twins)) in faces.zip(verts.iter().zip(twins)) {
+        let faces = &self.faces[first_face as usize..];
+        for ((first, v), twins) in (corners.start..).step_by(4).zip(verts).zip(twins) {
             let x = v.map(|v| self.at(v));
             if self.linear {
                 for i in 0..4 {
@@ -110,12 +114,16 @@ impl<'v, T: Scalar, const W: usize> EdgeKernel<'v, T, W> {
                 }
                 continue;
             }
-            let own = widen::<T, W>(&self.faces[face as usize]);
+            let own = widen::<T, W>(&faces[((first - first_quad) / 4) as usize]);
             for i in 0..4 {
                 let corner = first + i as u32;
                 let twin = if twins[i] == NONE { corner } else { twins[i] };
-                let across = widen::<T, W>(&self.faces[layout.face_of(twin) as usize]);
-                out.push(self.mix(x[i] + x[(i + 1) % 4], own + across), corner <= twin);
+                let across = match twin.checked_sub(first_quad) {
+                    Some(local) => &faces[(local / 4) as usize],
+                    None => &self.faces[layout.face_of(twin) as usize],
+                };
+                let sides = own + widen::<T, W>(across);
+                out.push(self.mix(x[i] + x[(i + 1) % 4], sides), corner <= twin);
             }
         }
     }
@@ -166,79 +174,149 @@ impl<V> Leading<'_, V> {
 }
 
 /// Smooth old vertices: a walk around each.
+///
+/// Sums are taken lane by lane: values of three lanes would have to be put together
+/// before every addition.
 pub(super) struct VertexKernel<'v, T, const W: usize> {
-    split: &'v PrimalSplit<'v>,
+    mesh: &'v Mesh,
+    pieces: Pieces,
     values: &'v [Value<T, W>],
     faces: &'v [Value<T, W>],
+    masks: SmoothMasks<f64>,
+    /// The mask of the regular valence.
+    regular: (usize, [T; 3]),
 }
 
 impl<'v, T: Scalar, const W: usize> VertexKernel<'v, T, W> {
     pub(super) fn new(
         split: &'v PrimalSplit<'v>,
+        masks: &SmoothMasks<f64>,
         values: &'v [Value<T, W>],
         faces: &'v [Value<T, W>],
     ) -> Self {
-        Self { split, values, faces }
+        let (mut masks, pieces) = (masks.clone(), split.pieces());
+        let valence = match pieces {
+            Pieces::Quads => 4,
+            Pieces::Triangles => 6,
+        };
+        let regular = (valence, weights(&masks.vertex(valence)));
+        Self { mesh: split.parent(), pieces, values, faces, masks, regular }
     }
 
-    /// The value of an interior vertex; an isolated one keeps its own.
-    #[inline(always)]
-    pub(super) fn value(&self, vertex: u32, masks: &mut SmoothMasks<f64>) -> Value<T, W> {
-        let own = &self.values[vertex as usize];
-        let start = self.split.parent().start[vertex as usize];
-        if start == NONE {
-            return *own;
-        }
-        match self.split.pieces() {
-            Pieces::Quads => self.among_quads(own, start, masks),
-            Pieces::Triangles => self.among_triangles(own, start, masks),
+    /// Writes the old vertices from one on, but for those of a set.
+    pub(super) fn run(&mut self, first: u32, out: &mut [Value<T, W>], except: &VertexSet) {
+        match (self.pieces, self.mesh.layout.irregular_corners()) {
+            (Pieces::Quads, 0) if self.mesh.layout.side() == 4 => {
+                self.each(first, out, except, Self::among_quads);
+            }
+            (Pieces::Quads, _) => self.each(first, out, except, Self::among_faces),
+            (Pieces::Triangles, _) => self.each(first, out, except, Self::among_triangles),
         }
     }
 
     #[inline(always)]
-    fn among_quads(
-        &self,
-        own: &Value<T, W>,
-        start: u32,
-        masks: &mut SmoothMasks<f64>,
-    ) -> Value<T, W> {
-        let parent = self.split.parent();
-        let zero = widen::<T, W>(&[T::default(); W]);
-        let (mut near, mut faces, mut n, mut corner) = (zero, zero, 0, start);
-        loop {
-            near = near
-                + widen::<T, W>(&self.values[parent.vert[parent.next(corner) as usize] as usize]);
-            faces = faces + widen::<T, W>(&self.faces[parent.layout.face_of(corner) as usize]);
-            n += 1;
-            corner = parent.ccw(corner);
-            if corner == start {
-                break;
+    fn each(
+        &mut self,
+        first: u32,
+        out: &mut [Value<T, W>],
+        except: &VertexSet,
+        around: impl Fn(&Self, u32) -> Ring<T, W>,
+    ) {
+        let starts = &self.mesh.start[first as usize..];
+        let values = &self.values[first as usize..];
+        for (((v, slot), &start), own) in (first..).zip(out).zip(starts).zip(values) {
+            if except.contains(v) {
+                continue;
+            }
+            *slot = *own;
+            if start != NONE {
+                let ring = around(self, start);
+                let (valence, regular) = &self.regular;
+                let [w, u, f] = if ring.valence == *valence {
+                    *regular
+                } else {
+                    weights(&self.masks.vertex(ring.valence))
+                };
+                for lane in 0..W {
+                    slot[lane] = own[lane] * w + ring.near[lane] * u + ring.faces[lane] * f;
+                }
             }
         }
-        let VertexMask { own: w, near: u, face: f } = masks.vertex(n);
-        let [w, u, f] = [w, u, f].map(T::from_f64);
-        narrow::<T, W>(widen::<T, W>(own) * w + near * u + faces * f)
+    }
+
+    /// In a mesh of quads only.
+    #[inline(always)]
+    fn among_quads(&self, start: u32) -> Ring<T, W> {
+        let (vert, twin) = (&self.mesh.vert[..], &self.mesh.twin[..]);
+        let mut ring = Ring::default();
+        let mut corner = start;
+        loop {
+            ring.add_near(&self.values[vert[turn_in_quad(0, corner, 1) as usize] as usize]);
+            ring.add_face(&self.faces[(corner / 4) as usize]);
+            corner = twin[turn_in_quad(0, corner, 3) as usize];
+            if corner == start {
+                return ring;
+            }
+        }
+    }
+
+    /// In any mesh.
+    fn among_faces(&self, start: u32) -> Ring<T, W> {
+        let mut ring = Ring::default();
+        for corner in self.mesh.fan_from(start) {
+            let near = self.mesh.vert[self.mesh.next(corner) as usize];
+            ring.add_near(&self.values[near as usize]);
+            ring.add_face(&self.faces[self.mesh.layout.face_of(corner) as usize]);
+        }
+        ring
+    }
+
+    /// In a mesh of triangles only; faces have no weight.
+    #[inline(always)]
+    fn among_triangles(&self, start: u32) -> Ring<T, W> {
+        let (vert, twin) = (&self.mesh.vert[..], &self.mesh.twin[..]);
+        let mut ring = Ring::default();
+        let mut corner = start;
+        loop {
+            ring.add_near(&self.values[vert[after_in_triangle(corner) as usize] as usize]);
+            corner = twin[before_in_triangle(corner) as usize];
+            if corner == start {
+                return ring;
+            }
+        }
+    }
+}
+
+fn weights<T: Scalar>(mask: &VertexMask<f64>) -> [T; 3] {
+    [mask.own, mask.near, mask.face].map(T::from_f64)
+}
+
+/// Sums over the neighbours and the faces of a vertex.
+struct Ring<T, const W: usize> {
+    near: Value<T, W>,
+    faces: Value<T, W>,
+    valence: usize,
+}
+
+impl<T: Scalar, const W: usize> Default for Ring<T, W> {
+    fn default() -> Self {
+        Self { near: [T::default(); W], faces: [T::default(); W], valence: 0 }
+    }
+}
+
+impl<T: Scalar, const W: usize> Ring<T, W> {
+    #[inline(always)]
+    fn add_near(&mut self, value: &Value<T, W>) {
+        self.valence += 1;
+        for (sum, &x) in self.near.iter_mut().zip(value) {
+            *sum = *sum + x;
+        }
     }
 
     #[inline(always)]
-    fn among_triangles(
-        &self,
-        own: &Value<T, W>,
-        start: u32,
-        masks: &mut SmoothMasks<f64>,
-    ) -> Value<T, W> {
-        let parent = self.split.parent();
-        let (mut near, mut n, mut corner) = (widen::<T, W>(&[T::default(); W]), 0, start);
-        loop {
-            let next = parent.vert[after_in_triangle(corner) as usize];
-            near = near + widen::<T, W>(&self.values[next as usize]);
-            n += 1;
-            corner = parent.twin[before_in_triangle(corner) as usize];
-            if corner == start {
-                break;
-            }
+    fn add_face(&mut self, value: &Value<T, W>) {
+        for (sum, &x) in self.faces.iter_mut().zip(value) {
+            *sum = *sum + x;
         }
-        let VertexMask { own: w, near: u, .. } = masks.vertex(n);
-        narrow::<T, W>(widen::<T, W>(own) * T::from_f64(w) + near * T::from_f64(u))
     }
 }

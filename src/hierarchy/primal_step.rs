@@ -6,9 +6,10 @@
 use super::kernel::Value;
 use super::primal_kernel::{EdgeKernel, VertexKernel, face_values};
 use super::step::{Interpolation, Scratch, Sum, accumulate};
-use crate::base::{Context, Result, Scalar, memory};
-use crate::mesh::VertexSet;
+use crate::base::{Context, NONE, Result, Scalar, memory};
+use crate::mesh::{Mesh, VertexSet};
 use crate::refine::PrimalSplit;
+use crate::scheme::{ChannelLevel, ChannelRules, SplitValue};
 use crate::scheme::{PointSink, PrimalRows, Scheme, SmoothMasks};
 
 /// One primal step of a scheme on one mesh, ready to be applied to values.
@@ -22,6 +23,43 @@ pub(super) struct PrimalStep<'a> {
     ruled: VertexSet,
     ruled_vertices: Vec<u32>,
     passes: usize,
+    /// For face-varying values: `split` is then that of their channel.
+    channel: Option<ChannelStep<'a>>,
+}
+
+/// What a step of face-varying values needs beside the split of their channel.
+struct ChannelStep<'a> {
+    /// The split of the mesh itself, whose rules hold away from seams.
+    shape: &'a PrimalSplit<'a>,
+    rules: ChannelRules<'a>,
+    /// The split values before the step, and in the same order their rules after it.
+    split: &'a [SplitValue],
+    left: &'a [SplitValue],
+    /// Values and their places in these lists, by value.
+    places: Vec<(u32, u32)>,
+}
+
+impl ChannelStep<'_> {
+    /// The row of a value with a rule of its own.
+    fn value_row(
+        &self,
+        channel: &Mesh,
+        value: u32,
+        rows: &mut PrimalRows<f64>,
+        sink: &mut impl PointSink<f64>,
+    ) {
+        let mesh = self.shape.parent();
+        let Ok(at) = self.places.binary_search_by_key(&value, |&(value, _)| value) else {
+            let start = channel.start[value as usize];
+            return rows.vertex_row(mesh.vert[start as usize], sink);
+        };
+        let at = self.places[at].1 as usize;
+        let vertex = self.split[at].0;
+        let first = self.split.partition_point(|value| value.0 < vertex);
+        let end = self.split.partition_point(|value| value.0 <= vertex);
+        let value = (self.split[at], self.left[at].2);
+        self.rules.row(mesh, channel, value, &self.split[first..end], sink);
+    }
 }
 
 impl<'a> PrimalStep<'a> {
@@ -44,7 +82,42 @@ impl<'a> PrimalStep<'a> {
         }
         let ruled = VertexSet::new(parent.vertices(), &ruled_vertices)?;
         let passes = if varying { 0 } else { scheme.passes().len() };
-        Ok(Self { split, scheme, masks, ruled_edges, ruled, ruled_vertices, passes })
+        Ok(Self { split, scheme, masks, ruled_edges, ruled, ruled_vertices, passes, channel: None })
+    }
+
+    /// The step of face-varying values: `split` is that of their channel at `level`,
+    /// `shape` that of the mesh, `left` the rules after the step.
+    pub(super) fn channel(
+        rules: ChannelRules<'a>,
+        shape: &'a PrimalSplit<'a>,
+        level: &'a ChannelLevel,
+        split: &'a PrimalSplit<'a>,
+        left: &'a [SplitValue],
+    ) -> Result<Self> {
+        let (scheme, mesh, channel) = (rules.scheme(), shape.parent(), split.parent());
+        let mut places = memory::collect(level.split.iter().zip(0..).map(|(v, at)| (v.1, at)))?;
+        places.sort_unstable();
+        let linear = rules.is_linear();
+        let masks = if linear { SmoothMasks::linear() } else { SmoothMasks::new(scheme) };
+        let (mut ruled_vertices, mut ruled_edges) = (Vec::new(), Vec::new());
+        if !linear {
+            let values = |v: u32| mesh.fans(v).map(|c| channel.vert[c as usize]);
+            memory::extend(&mut ruled_vertices, scheme.ruled_vertices(mesh).flat_map(values))?;
+            memory::extend(&mut ruled_vertices, level.split.iter().map(|value| value.1))?;
+            ruled_vertices.sort_unstable();
+            ruled_vertices.dedup();
+            let on_rim = channel.rim.iter().copied().filter(|&c| channel.is_first_of_edge(c));
+            memory::extend(&mut ruled_edges, on_rim)?;
+            memory::extend(&mut ruled_edges, mesh.sharpness.edges.iter().map(|&(c, _)| c))?;
+        }
+        let ruled = VertexSet::new(channel.vertices(), &ruled_vertices)?;
+        let channel = Some(ChannelStep { shape, rules, split: &level.split, left, places });
+        Ok(Self { split, scheme, masks, ruled_edges, ruled, ruled_vertices, passes: 0, channel })
+    }
+
+    /// The number of child vertices.
+    pub(super) fn children(&self) -> usize {
+        self.split.counts.vertices as usize
     }
 
     /// The values of all child vertices.
@@ -82,7 +155,27 @@ impl<'a> PrimalStep<'a> {
     }
 
     fn rows(&self) -> PrimalRows<'_, f64> {
-        PrimalRows::by_element(self.scheme, self.split, self.masks.clone())
+        let shape = self.channel.as_ref().map_or(self.split, |channel| channel.shape);
+        let rows = PrimalRows::by_element(self.scheme, shape, self.masks.clone());
+        rows.with_names(&self.split.parent().vert)
+    }
+
+    /// The row of an old vertex that may not follow the smooth rule.
+    fn vertex_row(&self, vertex: u32, rows: &mut PrimalRows<f64>, sink: &mut impl PointSink<f64>) {
+        match &self.channel {
+            None => rows.vertex_row(vertex, sink),
+            Some(channel) => channel.value_row(self.split.parent(), vertex, rows, sink),
+        }
+    }
+
+    /// The row of the new vertex on the edge whose first corner is given.
+    fn edge_row(&self, corner: u32, rows: &PrimalRows<f64>, sink: &mut impl PointSink<f64>) {
+        // Along a seam both sides are refined by themselves.
+        if self.channel.is_some() && self.split.parent().twin[corner as usize] == NONE {
+            rows.midpoint_row(corner, sink);
+        } else {
+            rows.edge_row(corner, sink);
+        }
     }
 
     /// The split alone.
@@ -102,18 +195,13 @@ impl<'a> PrimalStep<'a> {
             old.copy_from_slice(values);
             return Ok(());
         }
-        let kernel = VertexKernel::new(self.split, values, faces);
         context.fill(old, 1, |start, part| {
-            let mut masks = self.masks.clone();
-            for (v, slot) in (start as u32..).zip(part) {
-                if !self.ruled.contains(v) {
-                    *slot = kernel.value(v, &mut masks);
-                }
-            }
+            let mut kernel = VertexKernel::new(self.split, &self.masks, values, faces);
+            kernel.run(start as u32, part, &self.ruled);
         })?;
         let (mut rows, mut sum) = (self.rows(), Points::new(values, faces));
         for &v in &self.ruled_vertices {
-            old[v as usize] = sum.of(|sink| rows.vertex_row(v, sink));
+            old[v as usize] = sum.of(|sink| self.vertex_row(v, &mut rows, sink));
         }
         Ok(())
     }
@@ -139,14 +227,14 @@ impl<'a> PrimalStep<'a> {
                 let (rows, mut sum) = (self.rows(), Points::new(values, faces));
                 let first = |&c: &u32| self.split.parent().is_first_of_edge(c);
                 for (slot, c) in part.iter_mut().zip(corners.filter(first)) {
-                    *slot = sum.of(|sink| rows.edge_row(c, sink));
+                    *slot = sum.of(|sink| self.edge_row(c, &rows, sink));
                 }
             }
         })?;
         let (rows, mut sum) = (self.rows(), Points::new(values, faces));
         for &c in &self.ruled_edges {
             let edge = self.split.edges.of_corner[c as usize];
-            out[edge as usize] = sum.of(|sink| rows.edge_row(c, sink));
+            out[edge as usize] = sum.of(|sink| self.edge_row(c, &rows, sink));
         }
         Ok(())
     }

@@ -4,6 +4,7 @@
 //! touches no fresh page. For several levels at once, or for new positions on
 //! the same topology, see [`super::Hierarchy`].
 
+use super::channels::{ChannelOutput, ChannelRun, FaceVarying, RefinedChannel};
 use super::columns::{Column, Place};
 use super::predict::Prediction;
 use super::step::{Interpolation, Step};
@@ -51,6 +52,9 @@ pub struct Task<'a, T> {
     pub positions: &'a [T],
     /// Further values, refined by the same rows.
     pub attributes: &'a [Attribute<'a, T>],
+    /// Values at the corners of faces, with seams; for Catmull–Clark, Loop and bilinear
+    /// refinement.
+    pub channels: &'a [FaceVarying<'a, T>],
     /// Also report the control face that each refined face descends from.
     pub face_sources: bool,
 }
@@ -69,6 +73,8 @@ pub struct Output<'a, T> {
     pub positions: &'a mut [T],
     /// One array per attribute of the task.
     pub attributes: Vec<&'a mut [T]>,
+    /// One pair of arrays per face-varying channel of the task.
+    pub channels: Vec<ChannelOutput<'a, T>>,
 }
 
 /// A refined mesh as arrays.
@@ -86,6 +92,8 @@ pub struct Refined<T> {
     pub positions: Vec<T>,
     /// One array per attribute of the task.
     pub attributes: Vec<Vec<T>>,
+    /// Indices and values of each face-varying channel of the task.
+    pub channels: Vec<RefinedChannel<T>>,
     /// A further step must treat the mesh as anchored.
     pub anchored: bool,
 }
@@ -134,11 +142,18 @@ impl<T: Scalar> Refiner<T> {
             face_sources: zeroed(if task.face_sources { last.faces as usize } else { 0 })?,
             positions: zeroed(last.vertices as usize * 3)?,
             attributes: Vec::new(),
+            channels: Vec::new(),
             anchored: task.anchored(),
         };
         for attribute in task.attributes {
             let len = last.vertices as usize * attribute.width;
             refined.attributes.push(zeroed(len)?);
+        }
+        for data in task.channels {
+            let plan = data.plan(task.mesh, task.scheme, task.levels)?;
+            let indices = zeroed(plan.last().corners as usize)?;
+            let values = zeroed(plan.last().vertices as usize * data.width)?;
+            refined.channels.push(RefinedChannel { indices, values });
         }
         let output = Output {
             face_sizes: Some(&mut refined.face_sizes),
@@ -146,6 +161,7 @@ impl<T: Scalar> Refiner<T> {
             face_sources: task.face_sources.then_some(&mut refined.face_sources[..]),
             positions: &mut refined.positions,
             attributes: refined.attributes.iter_mut().map(Vec::as_mut_slice).collect(),
+            channels: refined.channels.iter_mut().map(RefinedChannel::output).collect(),
         };
         self.run(context, task, &plan, output)?;
         Ok(refined)
@@ -201,10 +217,32 @@ impl<T: Scalar> Refiner<T> {
     }
 }
 
+impl<'a, T> Output<'a, T> {
+    /// An output for positions alone; set the other fields for more.
+    pub fn new(positions: &'a mut [T]) -> Self {
+        Self {
+            face_sizes: None,
+            face_vertices: None,
+            face_sources: None,
+            positions,
+            attributes: Vec::new(),
+            channels: Vec::new(),
+        }
+    }
+}
+
 impl<'a, T> Task<'a, T> {
     /// A task for positions alone; set the other fields for more.
     pub fn new(mesh: &'a Mesh, scheme: &'a Scheme, levels: u32, positions: &'a [T]) -> Self {
-        Self { mesh, scheme, levels, positions, attributes: &[], face_sources: false }
+        Self {
+            mesh,
+            scheme,
+            levels,
+            positions,
+            attributes: &[],
+            channels: &[],
+            face_sources: false,
+        }
     }
 }
 
@@ -221,11 +259,19 @@ impl<T: Scalar> Task<'_, T> {
         }
         let plan = Prediction::new(self.mesh, self.scheme, self.levels)?;
         plan.check_index_type()?;
+        let mut channels = 0_u64;
+        for data in self.channels {
+            let plan = data.plan(self.mesh, self.scheme, self.levels)?;
+            let width = data.width as u64;
+            let output = if with_output { plan.output_bytes(width, T::BYTES) } else { 0 };
+            let bytes = plan.refiner_bytes(width, T::BYTES, false).saturating_add(output);
+            channels = channels.saturating_add(bytes);
+        }
         let widths = self.attributes.iter().map(|a| a.width as u64);
         let width = widths.fold(3, u64::saturating_add);
         let output = if with_output { plan.output_bytes(width, T::BYTES) } else { 0 };
         let scratch = plan.refiner_bytes(width, T::BYTES, self.face_sources);
-        context.check_memory(scratch.saturating_add(output))?;
+        context.check_memory(scratch.saturating_add(output).saturating_add(channels))?;
         Ok(plan)
     }
 
@@ -237,6 +283,9 @@ impl<T: Scalar> Task<'_, T> {
             let name = format!("attribute {i}");
             let values = attribute.values;
             largest = largest.max(check(context, &name, values, attribute.width, vertices)?);
+        }
+        for data in self.channels {
+            largest = largest.max(data.check_values(context)?);
         }
         Ok(largest)
     }
@@ -280,6 +329,10 @@ impl<T: Scalar> Output<'_, T> {
             let len = last.vertices.saturating_mul(attribute.width as u64);
             length("attribute", out.len(), len)?;
         }
+        length("channels", self.channels.len(), task.channels.len() as u64)?;
+        for (out, data) in self.channels.iter().zip(task.channels) {
+            out.check(&data.plan(task.mesh, task.scheme, task.levels)?, data.width)?;
+        }
         Ok(())
     }
 }
@@ -303,6 +356,9 @@ fn copy<T: Scalar>(task: &Task<T>, output: Output<T>) {
     output.positions.copy_from_slice(task.positions);
     for (out, attribute) in output.attributes.into_iter().zip(task.attributes) {
         out.copy_from_slice(attribute.values);
+    }
+    for (mut out, data) in output.channels.into_iter().zip(task.channels) {
+        data.copy(&mut out);
     }
 }
 
@@ -333,6 +389,9 @@ struct Run<'r, T> {
 impl<T: Scalar> Run<'_, T> {
     fn levels(&self, refiner: &mut Refiner<T>, output: Output<T>) -> Result<()> {
         let places = self.places(&mut refiner.columns);
+        let channels = self.task.channels.iter();
+        let channels = channels.map(|data| ChannelRun::new(self.task.scheme, self.task.mesh, data));
+        let mut channels = channels.collect::<Result<Vec<_>>>()?;
         let mut owned: Option<Mesh> = None;
         let last = self.task.levels as usize - 1;
         for level in 0..last {
@@ -345,6 +404,9 @@ impl<T: Scalar> Run<'_, T> {
                 self.check(values, level + 1)?;
             }
             drop(steps);
+            for (channel, shape) in channels.iter_mut().zip(split.primal()) {
+                channel.step(self.context, shape, level, self.watch)?;
+            }
             self.inherit(&mut refiner.face_sources, &split, level, None)?;
             // Holes follow from the control faces, which the caller knows.
             let carried = self.task.scheme.carried(&[]);
@@ -356,7 +418,7 @@ impl<T: Scalar> Run<'_, T> {
             self.progress(level + 1, 0.0)?;
         }
         let parent = owned.as_ref().unwrap_or(self.task.mesh);
-        self.last_level(refiner, parent, &places, output)?;
+        self.last_level(refiner, parent, &places, &mut channels, output)?;
         if let Some(mesh) = owned {
             refiner.levels[last - 1].absorb(mesh);
         }
@@ -369,6 +431,7 @@ impl<T: Scalar> Run<'_, T> {
         refiner: &mut Refiner<T>,
         parent: &Mesh,
         places: &[Place],
+        channels: &mut [ChannelRun<T>],
         mut output: Output<T>,
     ) -> Result<()> {
         let level = self.task.levels as usize - 1;
@@ -396,6 +459,11 @@ impl<T: Scalar> Run<'_, T> {
             }
         }
         drop(steps);
+        for ((channel, out), shape) in
+            channels.iter_mut().zip(&mut output.channels).zip(split.primal())
+        {
+            channel.finish(self.context, shape, level, self.watch, out)?;
+        }
         split.recycle(&mut refiner.edges);
         Ok(())
     }

@@ -55,6 +55,11 @@ impl<'a> Step<'a> {
         Ok(Self { children: split.counts().vertices as usize, kind })
     }
 
+    /// The step of face-varying values.
+    pub(super) fn channel(step: PrimalStep<'a>) -> Self {
+        Self { children: step.children(), kind: Kind::Primal(step) }
+    }
+
     /// The number of child vertices.
     pub(super) fn children(&self) -> usize {
         self.children

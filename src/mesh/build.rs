@@ -95,6 +95,7 @@ pub fn build(
         return Err(Defects::Soup(defects));
     }
     mesh.collect_lists()?;
+    mesh.near = Some(Near::of(&mesh)?);
     set_tags(&mut mesh, options, vertex_source.as_deref(), vertices)?;
     Ok(Built { mesh, vertex_source })
 }
@@ -276,7 +277,7 @@ impl Soup {
 }
 
 /// Sets the starts of all fans; returns the vertices with more than one.
-fn several_fans(context: &Context, mesh: &mut Mesh) -> Result<Vec<u32>> {
+pub(super) fn several_fans(context: &Context, mesh: &mut Mesh) -> Result<Vec<u32>> {
     let mut valence = memory::zeroed::<u32>(mesh.start.len())?;
     for (corner, (&v, &twin)) in (0..).zip(mesh.vert.iter().zip(&mesh.twin)) {
         let v = v as usize;
@@ -313,13 +314,12 @@ impl Mesh {
     }
 
     /// Fills the lists of boundary corners and special vertices.
-    fn collect_lists(&mut self) -> Result<()> {
+    pub(super) fn collect_lists(&mut self) -> Result<()> {
         let corners = 0..self.vert.len() as u32;
         self.rim = memory::collect(corners.filter(|&c| self.twin[c as usize] == NONE))?;
         let vertices = 0..self.start.len() as u32;
         self.special = memory::collect(vertices.filter(|&v| !self.is_regular(v)))?;
         self.special_set = VertexSet::new(self.start.len(), &self.special)?;
-        self.near = Some(Near::of(self)?);
         Ok(())
     }
 

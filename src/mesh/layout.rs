@@ -50,6 +50,12 @@ impl Layout {
         Ok(Self { offsets, face_of, side, corners, first_quad })
     }
 
+    /// A copy.
+    pub(crate) fn try_clone(&self) -> Result<Self> {
+        let (offsets, face_of) = (memory::copied(&self.offsets)?, memory::copied(&self.face_of)?);
+        Ok(Self { offsets, face_of, ..*self })
+    }
+
     pub(crate) fn corners(&self) -> u32 {
         self.corners
     }

@@ -22,6 +22,7 @@
 
 mod anchor;
 mod build;
+mod channel;
 mod cut;
 mod defect;
 mod joints;
@@ -35,6 +36,7 @@ mod survey;
 mod validate;
 
 pub use build::{BuildOptions, Built, NonManifold, build};
+pub use channel::{Channel, FaceVaryingMode};
 #[cfg(feature = "capi")]
 pub(crate) use defect::summary;
 pub use defect::{Defect, Defects};

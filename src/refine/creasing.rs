@@ -38,12 +38,12 @@ impl Creasing {
         let others = (around.sum - sharpness) / (around.count - 1) as f32;
         ((0.75 * sharpness + 0.25 * others) - 1.0).max(0.0)
     }
+}
 
-    /// The sharp vertices of the children; the method is for edges only.
-    pub(crate) fn vertices(self, sharp: &[(u32, f32)]) -> Result<Vec<(u32, f32)>> {
-        let left = sharp.iter().map(|&(v, sharpness)| (v, decrement(sharpness)));
-        memory::collect(left.filter(|&(_, sharpness)| sharpness > 0.0))
-    }
+/// What is left of sharp vertices, whatever the method for edges is.
+pub(super) fn vertices_left(sharp: &[(u32, f32)]) -> Result<Vec<(u32, f32)>> {
+    let left = sharp.iter().map(|&(v, sharpness)| (v, decrement(sharpness)));
+    memory::collect(left.filter(|&(_, sharpness)| sharpness > 0.0))
 }
 
 /// One less, but never below 0, and infinity stays.
@@ -79,17 +79,17 @@ impl Mesh {
         }
     }
 
-    /// Calls `each` with the far end and the sharpness of every edge at a vertex, once
-    /// for each edge.
+    /// Calls `each` with a corner at the far end and the sharpness of every edge at a
+    /// vertex, once for each edge.
     pub(crate) fn each_edge_at(&self, vertex: u32, mut each: impl FnMut(u32, f32)) {
         for corner in self.fans(vertex) {
             if self.twin[corner as usize] != NONE || self.is_first_of_edge(corner) {
-                each(self.vert[self.next(corner) as usize], self.edge_sharpness(corner));
+                each(self.next(corner), self.edge_sharpness(corner));
             }
             // The last edge of an open fan leaves from no corner here.
             let before = self.prev(corner);
             if self.twin[before as usize] == NONE && self.is_first_of_edge(before) {
-                each(self.vert[before as usize], INFINITE);
+                each(before, INFINITE);
             }
         }
     }

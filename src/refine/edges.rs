@@ -33,7 +33,7 @@ impl EdgeNumbers {
         let mut chunks = memory::reserved(runs.len())?;
         for corners in runs {
             let first = next;
-            if mesh.is_manifold() {
+            if mesh.joints.sides.is_empty() {
                 next = number(&mesh.twin, corners.clone(), first, &mut of_corner);
             } else {
                 for c in corners.clone() {
@@ -97,14 +97,13 @@ fn in_parallel(
         .collect();
     let of_corner: Vec<AtomicU32> = memory.into_iter().map(AtomicU32::new).collect();
     context.for_each(chunks.clone(), |chunk| {
-        let mut edge = chunk.edges.start;
-        for c in chunk.corners.filter(|&c| mesh.is_first_of_edge(c)) {
+        let leaders = chunk.corners.filter(|&c| mesh.is_first_of_edge(c));
+        for (edge, c) in chunk.edges.zip(leaders) {
             of_corner[c as usize].store(edge, Ordering::Relaxed);
             let twin = mesh.twin[c as usize];
             if twin != NONE {
                 of_corner[twin as usize].store(edge, Ordering::Relaxed);
             }
-            edge += 1;
         }
     })?;
     let mut of_corner: Vec<u32> = of_corner.into_iter().map(AtomicU32::into_inner).collect();

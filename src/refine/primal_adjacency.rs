@@ -1,10 +1,10 @@
 //! The mesh that a quad or triangle split leaves: every twin by arithmetic.
 
 use super::adjacency::{Recycled, sized};
-use super::creasing::Creasing;
+use super::creasing::{Creasing, vertices_left};
 use super::primal_split::{Pieces, PrimalSplit};
 use crate::base::{Context, NONE, Result, memory};
-use crate::mesh::{Joints, Layout, Mesh, Sharpness, VertexSet};
+use crate::mesh::{Joints, Layout, Mesh, Sharpness, VertexSet, turn_in_quad};
 
 impl PrimalSplit<'_> {
     /// The split mesh. `holes` are faces of the parent whose children are holes.
@@ -38,7 +38,7 @@ impl PrimalSplit<'_> {
             near: None,
             sharpness: Sharpness {
                 edges: self.sharp_edges(creasing)?,
-                vertices: creasing.vertices(&self.parent.sharpness.vertices)?,
+                vertices: vertices_left(&self.parent.sharpness.vertices)?,
             },
             joints: self.joints()?,
             holes: self.children_of(holes)?,
@@ -51,6 +51,9 @@ impl PrimalSplit<'_> {
     fn write_twins(&self, context: &Context, out: &mut [u32]) -> Result<()> {
         let layout = &self.parent.layout;
         match self.pieces {
+            Pieces::Quads if layout.side() == 4 && layout.irregular_corners() == 0 => {
+                self.write_twins_of_quads(context, out)
+            }
             Pieces::Quads => context.fill(out, 4, |start, part| {
                 for (c, out) in (start as u32..).zip(part.as_chunks_mut::<4>().0) {
                     let before = layout.prev(c);
@@ -72,6 +75,26 @@ impl PrimalSplit<'_> {
                 }
             }),
         }
+    }
+
+    /// The same for a parent of quads only, face by face.
+    fn write_twins_of_quads(&self, context: &Context, out: &mut [u32]) -> Result<()> {
+        let parents = self.parent.twin.as_chunks::<4>().0;
+        let or_none = |twin: u32, child: u32| if twin == NONE { NONE } else { child };
+        context.fill(out, 16, |face, part| {
+            let faces = (4 * face as u32..).step_by(4).zip(&parents[face..]);
+            for ((c, twins), out) in faces.zip(part.as_chunks_mut::<16>().0) {
+                let near = twins.map(|t| or_none(t, 4 * turn_in_quad(0, t, 1) + 3));
+                let far = twins.map(|t| or_none(t, 4 * t));
+                for i in 0..4 {
+                    let (next, before) = ((i + 1) % 4, (i + 3) % 4);
+                    out[4 * i] = near[i];
+                    out[4 * i + 1] = 4 * (c + next as u32) + 2;
+                    out[4 * i + 2] = 4 * (c + before as u32) + 1;
+                    out[4 * i + 3] = far[before];
+                }
+            }
+        })
     }
 
     /// The fan of an old vertex starts where it did, that of an edge's vertex where

@@ -37,6 +37,15 @@ impl<'a> Split<'a> {
         }
     }
 
+    /// The split, as often as asked, if it is a primal one: channels come with no other.
+    pub(crate) fn primal(&self) -> impl Iterator<Item = &PrimalSplit<'a>> {
+        let split = match self {
+            Self::Corner(_) => None,
+            Self::Primal(split) => Some(split),
+        };
+        split.into_iter().cycle()
+    }
+
     /// The sizes of the split mesh.
     pub(crate) fn counts(&self) -> &Counts {
         match self {

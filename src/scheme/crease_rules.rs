@@ -4,6 +4,7 @@
 //! with more or if it is sharp itself. Where the sharpness left for the children gives
 //! another rule, both are mixed by the part of a step that the sharpness still lasts.
 
+use crate::base::NONE;
 use crate::mesh::Mesh;
 use crate::refine::{Around, Creasing, decrement};
 
@@ -36,7 +37,7 @@ impl Rule {
 /// An edge at a vertex.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Spoke {
-    /// The vertex at its far end.
+    /// A corner at its far end.
     pub(super) far: u32,
     /// Its sharpness.
     pub(super) sharpness: f32,
@@ -66,6 +67,12 @@ impl Surroundings {
         for spoke in &mut self.spokes {
             spoke.left = creasing.edge(spoke.sharpness, around);
         }
+    }
+
+    /// Some edges only, by their sharpness before and after the step.
+    pub(super) fn inside(edges: Vec<(f32, f32)>, sharpness: f32, creasing: Creasing) -> Self {
+        let spoke = |(sharpness, left)| Spoke { far: NONE, sharpness, left };
+        Self { spokes: edges.into_iter().map(spoke).collect(), sharpness, creasing }
     }
 
     /// The rule before the step.

@@ -28,6 +28,8 @@ pub(crate) struct PrimalRows<'a, W> {
     pub(super) scheme: &'a Scheme,
     masks: SmoothMasks<W>,
     around: Surroundings,
+    /// What stands at each corner: its vertex, or its value in a face-varying channel.
+    pub(super) names: &'a [u32],
     /// The first corner of every edge, where rows of edges are asked for by number.
     pub(super) first_corners: Cow<'a, [u32]>,
 }
@@ -47,7 +49,14 @@ impl<'a, W: Weight> PrimalRows<'a, W> {
         masks: SmoothMasks<W>,
     ) -> Self {
         let around = Surroundings::default();
-        Self { split, scheme, masks, around, first_corners: Cow::Borrowed(&[]) }
+        let names = &split.parent().vert[..];
+        Self { split, scheme, masks, around, names, first_corners: Cow::Borrowed(&[]) }
+    }
+
+    /// The same rows on the values at the corners, where these match the vertices.
+    pub(crate) fn with_names(mut self, names: &'a [u32]) -> Self {
+        self.names = names;
+        self
     }
 
     /// The same, with the list of edges.
@@ -74,36 +83,42 @@ impl<'a, W: Weight> PrimalRows<'a, W> {
         let parent = self.split.parent();
         let sharpness =
             if self.scheme.creases() { parent.edge_sharpness(corner) } else { INFINITE };
-        let ends = [corner, parent.next(corner)].map(|c| parent.vert[c as usize]);
-        let hard = self.masks.is_linear()
+        let ends = [corner, parent.next(corner)];
+        if self.masks.is_linear()
             || parent.twin[corner as usize] == NONE
-            || (sharpness > 0.0 && self.stays_sharp(sharpness, ends));
-        let half = W::ratio(1, 2);
-        if hard {
-            ends.into_iter().for_each(|v| sink.vertex(v, half.clone()));
-            return;
+            || (sharpness > 0.0 && self.stays_sharp(sharpness, ends))
+        {
+            return self.midpoint_row(corner, sink);
         }
+        let half = W::ratio(1, 2);
         let mask = self.masks.edge(self.triangles_beside(corner));
         // As in OpenSubdiv the sharpness itself is the weight of the midpoint, beyond 1
         // as well where Chaikin creasing ends a sharper edge.
         let crease = W::from_sharpness(sharpness);
         let smooth = W::ratio(1, 1) - crease.clone();
-        for v in ends {
+        for v in ends.map(|c| self.names[c as usize]) {
             sink.vertex(v, crease.clone() * half.clone() + smooth.clone() * mask.end.clone());
         }
         for side in [corner, parent.twin[corner as usize]] {
             let weight = smooth.clone() * mask.beside.clone();
             match self.split.pieces() {
                 Pieces::Quads => sink.face(parent.layout.face_of(side), weight),
-                Pieces::Triangles => sink.vertex(parent.vert[parent.prev(side) as usize], weight),
+                Pieces::Triangles => sink.vertex(self.names[parent.prev(side) as usize], weight),
             }
         }
     }
 
-    /// True if both halves of an edge are still sharp.
+    /// The row of the middle of a corner's edge.
+    pub(crate) fn midpoint_row(&self, corner: u32, sink: &mut impl PointSink<W>) {
+        for c in [corner, self.split.parent().next(corner)] {
+            sink.vertex(self.names[c as usize], W::ratio(1, 2));
+        }
+    }
+
+    /// True if both halves of an edge, given by corners at its ends, are still sharp.
     fn stays_sharp(&self, sharpness: f32, ends: [u32; 2]) -> bool {
         let (parent, creasing) = (self.split.parent(), self.scheme.creasing());
-        ends.iter().all(|&v| creasing.edge_at(parent, sharpness, v) > 0.0)
+        ends.iter().all(|&c| creasing.edge_at(parent, sharpness, parent.vert[c as usize]) > 0.0)
     }
 
     fn triangles_beside(&self, corner: u32) -> usize {
@@ -119,67 +134,67 @@ impl<'a, W: Weight> PrimalRows<'a, W> {
     pub(crate) fn vertex_row(&mut self, vertex: u32, sink: &mut impl PointSink<W>) {
         let parent = self.split.parent();
         let one = || W::ratio(1, 1);
-        if self.masks.is_linear() || parent.start[vertex as usize] == NONE {
+        let start = parent.start[vertex as usize];
+        if start == NONE {
             return sink.vertex(vertex, one());
+        }
+        let own = self.names[start as usize];
+        if self.masks.is_linear() {
+            return sink.vertex(own, one());
         }
         let sharpness = self.vertex_sharpness(vertex);
         let mut around = std::mem::take(&mut self.around);
         around.look(parent, vertex, sharpness, self.scheme.creasing());
         let (before, after) = (around.rule(), around.rule_left());
         if before == after || before.is_smooth() {
-            self.ruled_row(before, vertex, &around, false, &one(), sink);
+            self.ruled_row(before, (vertex, own), &around, false, &one(), sink);
         } else {
             let weight = W::from_sharpness(around.weight());
-            self.ruled_row(before, vertex, &around, false, &weight, sink);
-            self.ruled_row(after, vertex, &around, true, &(one() - weight), sink);
+            self.ruled_row(before, (vertex, own), &around, false, &weight, sink);
+            self.ruled_row(after, (vertex, own), &around, true, &(one() - weight), sink);
         }
         self.around = around;
     }
 
     /// The sharpness of a vertex with what the boundary mode adds.
     fn vertex_sharpness(&self, vertex: u32) -> f32 {
-        let parent = self.split.parent();
-        let single = self.scheme.boundary() == Boundary::EdgeAndCorner
-            && parent.on_rim(vertex)
-            && parent.fans(vertex).nth(1).is_none();
-        if single || parent.corner_tags.binary_search(&vertex).is_ok() {
-            INFINITE
-        } else {
-            parent.sharpness.vertex(vertex)
-        }
+        self.scheme.vertex_sharpness(self.split.parent(), vertex)
     }
 
     /// A rule's row times a factor; `left` asks for the edges that stay sharp.
     fn ruled_row(
         &mut self,
         rule: Rule,
-        vertex: u32,
+        (vertex, own): (u32, u32),
         around: &Surroundings,
         left: bool,
         factor: &W,
         sink: &mut impl PointSink<W>,
     ) {
         match rule {
-            Rule::Corner => sink.vertex(vertex, factor.clone()),
+            Rule::Corner => sink.vertex(own, factor.clone()),
             Rule::Crease => {
-                sink.vertex(vertex, factor.clone() * W::ratio(3, 4));
+                sink.vertex(own, factor.clone() * W::ratio(3, 4));
                 for spoke in &around.spokes {
                     let sharpness = if left { spoke.left } else { spoke.sharpness };
                     if sharpness > 0.0 {
-                        sink.vertex(spoke.far, factor.clone() * W::ratio(1, 8));
+                        sink.vertex(
+                            self.names[spoke.far as usize],
+                            factor.clone() * W::ratio(1, 8),
+                        );
                     }
                 }
             }
-            Rule::Smooth | Rule::Dart => self.smooth_row(vertex, factor, sink),
+            Rule::Smooth | Rule::Dart => self.smooth_row((vertex, own), factor, sink),
         }
     }
 
-    fn smooth_row(&mut self, vertex: u32, factor: &W, sink: &mut impl PointSink<W>) {
+    fn smooth_row(&mut self, (vertex, own): (u32, u32), factor: &W, sink: &mut impl PointSink<W>) {
         let parent = self.split.parent();
         let mask = self.masks.vertex(parent.fan(vertex).count());
-        sink.vertex(vertex, factor.clone() * mask.own);
+        sink.vertex(own, factor.clone() * mask.own);
         for corner in parent.fan(vertex) {
-            let near = parent.vert[parent.next(corner) as usize];
+            let near = self.names[parent.next(corner) as usize];
             sink.vertex(near, factor.clone() * mask.near.clone());
             if self.split.pieces() == Pieces::Quads {
                 sink.face(parent.layout.face_of(corner), factor.clone() * mask.face.clone());
@@ -189,6 +204,18 @@ impl<'a, W: Weight> PrimalRows<'a, W> {
 }
 
 impl Scheme {
+    /// The sharpness of a vertex with what the boundary mode adds.
+    pub(super) fn vertex_sharpness(&self, mesh: &Mesh, vertex: u32) -> f32 {
+        let single = self.boundary() == Boundary::EdgeAndCorner
+            && mesh.on_rim(vertex)
+            && mesh.fans(vertex).nth(1).is_none();
+        if single || mesh.corner_tags.binary_search(&vertex).is_ok() {
+            INFINITE
+        } else {
+            mesh.sharpness.vertex(vertex)
+        }
+    }
+
     /// The vertices of a mesh that may not follow the smooth rule, unsorted.
     pub(crate) fn ruled_vertices<'m>(&self, mesh: &'m Mesh) -> impl Iterator<Item = u32> + 'm {
         let heeds = self.method() != Method::Primal;

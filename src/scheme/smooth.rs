@@ -126,6 +126,7 @@ fn loop_beta<W: Weight>(weights: LoopWeights, n: usize) -> W {
 }
 
 #[cfg(test)]
+#[allow(clippy::float_cmp)] // what is exact is compared exactly
 mod tests {
     use super::*;
 

@@ -49,6 +49,7 @@ impl<T: Scalar> Setup<T> {
             levels,
             positions: &self.positions,
             attributes,
+            channels: &[],
             face_sources: true,
         }
     }
@@ -380,6 +381,7 @@ impl Arrays {
             face_sources: Some(&mut self.face_sources),
             positions: &mut self.positions,
             attributes: vec![&mut self.attribute],
+            channels: Vec::new(),
         }
     }
 }
@@ -567,6 +569,7 @@ fn what_an_output_held_before_does_not_matter() {
             face_sources: None,
             positions: &mut points,
             attributes: vec![&mut out],
+            channels: Vec::new(),
         };
         Refiner::new().refine_into(&context, &task, output).map(|()| out)
     };

@@ -326,6 +326,7 @@ fn check_threads<T: Scalar>(control: &Poly<f64>, scheme: &Scheme, levels: u32) {
         levels,
         positions: &positions,
         attributes,
+        channels: &[],
         face_sources: true,
     };
     let mut expected: Option<(Refined<T>, Hierarchy)> = None;
@@ -412,6 +413,7 @@ fn check_width<T: Scalar>(hierarchy: &Hierarchy, width: usize, tolerance: f64) {
         levels: level,
         positions: &positions,
         attributes,
+        channels: &[],
         face_sources: false,
     };
     let refined = Refiner::new().refine(&Context::serial(), &task).expect("a refinement");
@@ -483,6 +485,7 @@ impl Job {
             levels: self.levels,
             positions: &self.positions,
             attributes: &[Attribute::vertex(&self.values, self.width)],
+            channels: &[],
             face_sources: true,
         };
         refiner.refine(&Context::serial(), &task).expect("a refinement")

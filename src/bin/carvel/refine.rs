@@ -108,6 +108,7 @@ fn run<T: Precise>(refiner: &mut Refiner<T>, context: &Context, work: &Work) -> 
         levels: work.levels,
         positions: &positions,
         attributes: &attributes,
+        channels: &[],
         face_sources: true,
     };
     let (mut file, faces, refined) = fill(refiner, context, &task, work.plan)?;
@@ -143,6 +144,7 @@ fn fill<T: Precise>(
             face_sources: Some(&mut faces),
             positions,
             attributes: columns.iter_mut().map(Vec::as_mut_slice).collect(),
+            channels: Vec::new(),
         };
         refiner.refine_into(context, task, output)
     })?;

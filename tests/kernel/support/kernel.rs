@@ -93,7 +93,15 @@ pub fn refine_mesh<T: Scalar>(
     levels: u32,
     positions: &[T],
 ) -> Refined<T> {
-    let task = Task { mesh, scheme, levels, positions, attributes: &[], face_sources: true };
+    let task = Task {
+        mesh,
+        scheme,
+        levels,
+        positions,
+        attributes: &[],
+        channels: &[],
+        face_sources: true,
+    };
     Refiner::new().refine(&Context::serial(), &task).expect("a small refinement")
 }
 
