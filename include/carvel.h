@@ -98,6 +98,7 @@
  *   carvel_context    threads, memory ceiling, progress, cancellation
  *   carvel_scheme     a subdivision scheme with its parameters
  *   carvel_mesh       the topology of a mesh, checked
+ *   carvel_channel    values at the corners of a mesh's faces, with seams
  *   (predict)         what a level will cost, before anything is built
  *   carvel_refiner    one-shot: faces and values of level n
  *   carvel_hierarchy  all levels, kept: values again and again, lineage
@@ -149,8 +150,9 @@
  *            one means that the library is older than the caller: both are
  *            refused with CARVEL_STATUS_STRUCT_SIZE.
  *
- * Values     live on vertices. Data that differs between the faces of a vertex,
- *            such as texture coordinates with seams, cannot be refined yet.
+ * Values     live on vertices, or at the corners of faces where they differ
+ *            between the faces of a vertex, such as texture coordinates with
+ *            seams: carvel_channel.
  *
  * Numbers    Level n has the same vertices and faces, in the same order, from a
  *            refiner and in a hierarchy, whose meshes tell adjacency and edges.
@@ -875,6 +877,75 @@ CARVEL_API int32_t carvel_mesh_is_manifold(const carvel_mesh *mesh);
 CARVEL_API carvel_status carvel_mesh_validate(const carvel_mesh *mesh, carvel_error *error);
 
 /* ==========================================================================
+ * carvel_channel: values at the corners of a mesh's faces, with seams
+ *
+ * Says which value each corner of a mesh takes; the values themselves come with
+ * each refinement. Corners of one vertex that take the same value share it. Where
+ * the faces beside an edge take different values at either end, the edge is a
+ * seam, in the input and at every level. For CATMULL_CLARK, LOOP and BILINEAR;
+ * the other families answer UNSUPPORTED. Immutable and shared freely. OpenSubdiv
+ * calls this a face-varying channel.
+ * ========================================================================== */
+
+typedef struct carvel_channel carvel_channel;
+
+/* How smooth values are along the boundaries of a channel: its seams, and the
+ * boundary of the mesh. Elsewhere they follow the scheme's own rows. OpenSubdiv's
+ * names; its own default is ALL. */
+enum carvel_face_varying {
+    /* Boundaries are smooth curves, but values of a single face stay.
+     * FVAR_LINEAR_CORNERS_ONLY. */
+    CARVEL_FACE_VARYING_CORNERS = 0,
+    /* Corners are rounded off, too. FVAR_LINEAR_NONE. */
+    CARVEL_FACE_VARYING_SMOOTH = 1,
+    /* As CORNERS, and values stay where three and more meet at a vertex, or where
+     * one of two is not one piece. FVAR_LINEAR_CORNERS_PLUS1. */
+    CARVEL_FACE_VARYING_CORNERS_PLUS1 = 2,
+    /* And at the ends of seams, and both where one of two is of a single face.
+     * FVAR_LINEAR_CORNERS_PLUS2. */
+    CARVEL_FACE_VARYING_CORNERS_PLUS2 = 3,
+    /* Boundaries are refined linearly. FVAR_LINEAR_BOUNDARIES. */
+    CARVEL_FACE_VARYING_BOUNDARIES = 4,
+    /* Everything is refined linearly. FVAR_LINEAR_ALL. */
+    CARVEL_FACE_VARYING_ALL = 5
+};
+
+typedef struct carvel_channel_desc {
+    /* sizeof(carvel_channel_desc). */
+    uint32_t struct_size;
+    /* One of enum carvel_face_varying. */
+    int32_t mode;
+    /* The value of every corner, in the order of the arrays that the mesh was made
+     * of; for the mesh of a refined level, in its own. */
+    const uint32_t *indices;
+    /* Their number: the mesh's `corners`. */
+    uint64_t index_count;
+    /* The number of values; some may be taken by no corner. */
+    uint64_t value_count;
+} carvel_channel_desc;
+
+/* Sets defaults: no corners, corners stay.
+ * Errors: NULL_POINTER, MISALIGNED, STRUCT_SIZE. */
+CARVEL_API carvel_status carvel_channel_desc_init(carvel_channel_desc *desc,
+                                                  uint32_t struct_size);
+
+/* Makes a channel for a mesh, which is shared, not copied, and may be destroyed.
+ * O(corners).
+ * Errors: NULL_POINTER, MISALIGNED, STRUCT_SIZE; PARAMETER_OUT_OF_RANGE for an
+ * unknown mode; LENGTH_MISMATCH unless there is one index for each corner;
+ * INDEX_OUT_OF_RANGE for one that is no value, naming the face in the order of
+ * `indices`; TOO_LARGE, OUT_OF_RESOURCES. */
+CARVEL_API carvel_status carvel_channel_create(const carvel_mesh *mesh,
+                                               const carvel_channel_desc *desc,
+                                               carvel_channel **out, carvel_error *error);
+
+/* Destroys a channel; NULL is allowed. */
+CARVEL_API void carvel_channel_destroy(carvel_channel *channel);
+
+/* The number of edges inside the mesh that are seams; 0 for NULL. O(corners). */
+CARVEL_API uint64_t carvel_channel_seam_edges(const carvel_channel *channel);
+
+/* ==========================================================================
  * Predictions: what a level will cost, before anything is built
  * ========================================================================== */
 
@@ -887,8 +958,8 @@ typedef struct carvel_bytes {
     /* The adjacency of levels 1 to `level` in a carvel_hierarchy. */
     uint64_t topology;
     /* Scratch memory of a refiner while it writes that level, without what
-     * face_sources (4 bytes for each face of all levels) and records with gaps
-     * (a copy of them) take. */
+     * face_sources (4 bytes for each face of all levels), records with gaps
+     * (a copy of them) and channels take. */
     uint64_t scratch;
     /* Faces (sizes and vertices) and values of that level. */
     uint64_t output;
@@ -920,12 +991,21 @@ CARVEL_API carvel_status carvel_predict_bytes(const carvel_mesh *mesh,
                                               uint32_t width, uint32_t value_size,
                                               carvel_bytes *bytes, carvel_error *error);
 
+/* The number of values that a channel has at a level under a scheme; those of level
+ * 0 are the caller's. Costs as carvel_predict_counts.
+ * values: receives the number; not NULL.
+ * Errors: NULL_POINTER, MISALIGNED; TOO_LARGE as carvel_predict_counts; UNSUPPORTED
+ * for a scheme without rules for channels, but at level 0; OUT_OF_RESOURCES. */
+CARVEL_API carvel_status carvel_predict_channel(const carvel_channel *channel,
+                                                const carvel_scheme *scheme, uint32_t level,
+                                                uint64_t *values, carvel_error *error);
+
 /* ==========================================================================
  * Arrays of values and indices
  * ========================================================================== */
 
-/* Values to read, one record for each vertex. `count` must be the number of
- * vertices. The layouts are final. */
+/* Values to read, one record for each vertex, or for each value of a channel.
+ * `count` must be their number. The layouts are final. */
 typedef struct carvel_const_values_f32 {
     const float *data;
     /* Records. */
@@ -1001,6 +1081,33 @@ CARVEL_API void carvel_refiner_destroy(carvel_refiner *refiner);
  * thread. */
 CARVEL_API uint64_t carvel_refiner_bytes(const carvel_refiner *refiner);
 
+/* Values at the corners of faces to refine. The layouts are final. */
+typedef struct carvel_channel_input_f32 {
+    /* Made for the mesh that is refined, or for one that is like it in everything. */
+    const carvel_channel *channel;
+    /* A record for each of its values. */
+    carvel_const_values_f32 values;
+} carvel_channel_input_f32;
+
+typedef struct carvel_channel_input_f64 {
+    const carvel_channel *channel;
+    carvel_const_values_f64 values;
+} carvel_channel_input_f64;
+
+/* Where they go. The layouts are final. */
+typedef struct carvel_channel_output_f32 {
+    /* The value of every corner, as carvel_refine_output.face_vertices has them:
+     * `corners`; not to be left out. */
+    carvel_indices indices;
+    /* The values: as many records as carvel_predict_channel says. */
+    carvel_values_f32 values;
+} carvel_channel_output_f32;
+
+typedef struct carvel_channel_output_f64 {
+    carvel_indices indices;
+    carvel_values_f64 values;
+} carvel_channel_output_f64;
+
 /* What to refine. The mesh's own vertices are counted: with
  * CARVEL_NON_MANIFOLD_CUT there may be more than the caller gave. */
 typedef struct carvel_refine_input_f32 {
@@ -1018,6 +1125,9 @@ typedef struct carvel_refine_input_f32 {
     /* One of enum carvel_interpolation for each attribute; NULL for the scheme's
      * own rows for all. */
     const int32_t *interpolations;
+    /* Values at the corners of faces; at most 256 channels. */
+    const carvel_channel_input_f32 *channels;
+    uint64_t channel_count;
 } carvel_refine_input_f32;
 
 typedef struct carvel_refine_input_f64 {
@@ -1029,6 +1139,8 @@ typedef struct carvel_refine_input_f64 {
     const carvel_const_values_f64 *attributes;
     uint64_t attribute_count;
     const int32_t *interpolations;
+    const carvel_channel_input_f64 *channels;
+    uint64_t channel_count;
 } carvel_refine_input_f64;
 
 /* Where the result goes. Sizes are those of carvel_predict_counts. It must not
@@ -1054,6 +1166,9 @@ typedef struct carvel_refine_output_f32 {
     /* One for each attribute of the input, of the same width. */
     const carvel_values_f32 *attributes;
     uint64_t attribute_count;
+    /* One for each channel of the input, of the same width. */
+    const carvel_channel_output_f32 *channels;
+    uint64_t channel_count;
 } carvel_refine_output_f32;
 
 typedef struct carvel_refine_output_f64 {
@@ -1066,6 +1181,8 @@ typedef struct carvel_refine_output_f64 {
     carvel_values_f64 positions;
     const carvel_values_f64 *attributes;
     uint64_t attribute_count;
+    const carvel_channel_output_f64 *channels;
+    uint64_t channel_count;
 } carvel_refine_output_f64;
 
 /* Set defaults: everything empty.
@@ -1091,10 +1208,12 @@ CARVEL_API carvel_status carvel_refine_output_f64_init(carvel_refine_output_f64 
  * level gives the same surface, numbered otherwise.
  *
  * Errors: NULL_POINTER, MISALIGNED, STRUCT_SIZE, INVALID_STRIDE, OVERLAP,
- * BUFFER_TOO_SMALL; LENGTH_MISMATCH for a wrong count, or a width that is not that
- * of the positions or of the input; PARAMETER_OUT_OF_RANGE for a width or an
- * interpolation that is none and for too many attributes; UNSUPPORTED for a mesh or
- * an interpolation that the scheme has no rule for; NOT_FINITE, OVERFLOW;
+ * BUFFER_TOO_SMALL; LENGTH_MISMATCH for a wrong count, a width that is not that
+ * of the positions or of the input, or a channel of another mesh;
+ * PARAMETER_OUT_OF_RANGE for a width or an interpolation that is none and for too
+ * many attributes or channels; UNSUPPORTED for a mesh, an interpolation or a channel
+ * that the scheme has no rule for; NOT_FINITE, OVERFLOW, which in a channel name a
+ * value where they name a vertex elsewhere;
  * TOO_LARGE, MEMORY_CEILING, OUT_OF_RESOURCES; CANCELLED; BUSY. */
 CARVEL_API carvel_status carvel_refiner_refine_f32(carvel_refiner *refiner,
                                                    const carvel_context *context,

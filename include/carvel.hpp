@@ -346,6 +346,8 @@ template <>
 struct Layouts<float> {
     using ConstValues = carvel_const_values_f32;
     using Values = carvel_values_f32;
+    using ChannelInput = carvel_channel_input_f32;
+    using ChannelOutput = carvel_channel_output_f32;
     using Input = carvel_refine_input_f32;
     using Output = carvel_refine_output_f32;
 };
@@ -354,6 +356,8 @@ template <>
 struct Layouts<double> {
     using ConstValues = carvel_const_values_f64;
     using Values = carvel_values_f64;
+    using ChannelInput = carvel_channel_input_f64;
+    using ChannelOutput = carvel_channel_output_f64;
     using Input = carvel_refine_input_f64;
     using Output = carvel_refine_output_f64;
 };
@@ -660,6 +664,7 @@ protected:
 inline void destroy(carvel_context *object) { carvel_context_destroy(object); }
 inline void destroy(carvel_scheme *object) { carvel_scheme_destroy(object); }
 inline void destroy(carvel_mesh *object) { carvel_mesh_destroy(object); }
+inline void destroy(carvel_channel *object) { carvel_channel_destroy(object); }
 inline void destroy(carvel_refiner *object) { carvel_refiner_destroy(object); }
 inline void destroy(carvel_hierarchy *object) { carvel_hierarchy_destroy(object); }
 
@@ -1152,6 +1157,46 @@ inline Result<std::vector<std::uint32_t>> Scheme::try_holes(const Mesh &mesh) co
 }
 
 /* ==========================================================================
+ * Channel: values at the corners of a mesh's faces, with seams
+ * ========================================================================== */
+
+class Channel : public detail::Handle<carvel_channel, detail::destroy> {
+public:
+    using Handle::Handle;
+    /* Hands the object over to the caller. */
+    carvel_channel *release() noexcept { return object_.release(); }
+
+    /* The value of every corner, in the order of the faces that the mesh was made of,
+     * and how many values there are. */
+    static Result<Channel> try_create(const Mesh &mesh, Span<const std::uint32_t> indices,
+                                      std::uint64_t value_count,
+                                      carvel_face_varying mode = CARVEL_FACE_VARYING_CORNERS)
+    {
+        detail::Call call;
+        carvel_channel_desc c = detail::sized<carvel_channel_desc>();
+        c.mode = static_cast<std::int32_t>(mode);
+        c.indices = indices.data();
+        c.index_count = indices.size();
+        c.value_count = value_count;
+        carvel_channel *out = nullptr;
+        call.status = carvel_channel_create(mesh.get(), &c, &out, call.error());
+        return call.result(Channel(out));
+    }
+
+    /* The number of edges inside the mesh that are seams. */
+    std::uint64_t seam_edges() const noexcept { return carvel_channel_seam_edges(get()); }
+
+#if CARVEL_HPP_THROWS
+    static Channel create(const Mesh &mesh, Span<const std::uint32_t> indices,
+                          std::uint64_t value_count,
+                          carvel_face_varying mode = CARVEL_FACE_VARYING_CORNERS)
+    {
+        return try_create(mesh, indices, value_count, mode).value();
+    }
+#endif
+};
+
+/* ==========================================================================
  * Predictions: what a level will cost, before anything is built
  * ========================================================================== */
 
@@ -1177,7 +1222,33 @@ inline Result<Bytes> try_predict_bytes(const Mesh &mesh, const Scheme &scheme,
     return call.result(bytes);
 }
 
+namespace detail {
+
+inline Result<std::uint64_t> predict_channel(const carvel_channel *channel,
+                                             const carvel_scheme *scheme, std::uint32_t level)
+{
+    Call call;
+    std::uint64_t values = 0;
+    call.status = carvel_predict_channel(channel, scheme, level, &values, call.error());
+    return call.result(values);
+}
+
+} // namespace detail
+
+/* The number of values that a channel has at a level. */
+inline Result<std::uint64_t> try_predict_channel(const Channel &channel, const Scheme &scheme,
+                                                 std::uint32_t level)
+{
+    return detail::predict_channel(channel.get(), scheme.get(), level);
+}
+
 #if CARVEL_HPP_THROWS
+inline std::uint64_t predict_channel(const Channel &channel, const Scheme &scheme,
+                                     std::uint32_t level)
+{
+    return try_predict_channel(channel, scheme, level).value();
+}
+
 inline Counts predict_counts(const Mesh &mesh, const Scheme &scheme, std::uint32_t level)
 {
     return try_predict_counts(mesh, scheme, level).value();
@@ -1194,6 +1265,24 @@ inline Bytes predict_bytes(const Mesh &mesh, const Scheme &scheme, std::uint32_t
  * Refiner: one-shot, the faces and values of level n
  * ========================================================================== */
 
+/* A channel and its values, a record for each. It is the C struct. */
+template <class T>
+struct ChannelInput : detail::Layouts<T>::ChannelInput {
+    ChannelInput(const Channel &of, const ConstValues<T> &records) noexcept
+        : detail::Layouts<T>::ChannelInput{of.get(), records}
+    {
+    }
+};
+
+/* Where they go: the value of every corner, and the values. It is the C struct. */
+template <class T>
+struct ChannelOutput : detail::Layouts<T>::ChannelOutput {
+    ChannelOutput(Span<std::uint32_t> corners, const Values<T> &records) noexcept
+        : detail::Layouts<T>::ChannelOutput{{corners.data(), corners.size()}, records}
+    {
+    }
+};
+
 /* What to refine; borrowed. */
 template <class T>
 struct RefineInput {
@@ -1208,6 +1297,8 @@ struct RefineInput {
     /* One of enum carvel_interpolation for each attribute; empty for the scheme's
      * own rows for all. */
     Span<const std::int32_t> interpolations = {};
+    /* Values at the corners of faces. */
+    Span<const ChannelInput<T>> channels = {};
 };
 
 /* Where the result goes, in sizes of predict_counts; index arrays may be empty
@@ -1222,8 +1313,18 @@ struct RefineOutput {
     /* `vertices` records of 3, and of each attribute's width. */
     Values<T> positions = {};
     Span<const Values<T>> attributes = {};
+    /* One for each channel of the input, in sizes of predict_channel. */
+    Span<const ChannelOutput<T>> channels = {};
     /* Set by the call: for MeshOptions::anchored, if these faces become a mesh. */
     bool anchored = false;
+};
+
+/* Refined values of a channel. */
+template <class T>
+struct RefinedChannel {
+    /* The value of every corner. */
+    std::vector<std::uint32_t> indices;
+    std::vector<T> values;
 };
 
 /* A refined mesh in vectors. */
@@ -1237,6 +1338,8 @@ struct Refined {
     std::vector<T> positions;
     /* One for each attribute of the input. */
     std::vector<std::vector<T>> attributes;
+    /* One for each channel of the input. */
+    std::vector<RefinedChannel<T>> channels;
     /* For MeshOptions::anchored, if these faces become a mesh. */
     bool anchored = false;
 
@@ -1269,7 +1372,9 @@ public:
     {
         using C = detail::Layouts<T>;
         static_assert(sizeof(ConstValues<T>) == sizeof(typename C::ConstValues) &&
-                          sizeof(Values<T>) == sizeof(typename C::Values),
+                          sizeof(Values<T>) == sizeof(typename C::Values) &&
+                          sizeof(ChannelInput<T>) == sizeof(typename C::ChannelInput) &&
+                          sizeof(ChannelOutput<T>) == sizeof(typename C::ChannelOutput),
                       "carvel: arrays of these are arrays of the C structs");
         if (!input.interpolations.empty() &&
             input.interpolations.size() != input.attributes.size())
@@ -1284,6 +1389,8 @@ public:
         in.attributes = input.attributes.data();
         in.attribute_count = input.attributes.size();
         in.interpolations = input.interpolations.data();
+        in.channels = input.channels.data();
+        in.channel_count = input.channels.size();
         auto out = detail::sized<typename C::Output>();
         out.face_sizes = {output.face_sizes.data(), output.face_sizes.size()};
         out.face_offsets = {output.face_offsets.data(), output.face_offsets.size()};
@@ -1292,6 +1399,8 @@ public:
         out.positions = output.positions;
         out.attributes = output.attributes.data();
         out.attribute_count = output.attributes.size();
+        out.channels = output.channels.data();
+        out.channel_count = output.channels.size();
         call.status = detail::refine(get(), detail::raw(context), &in, &out, call.error());
         output.anchored = out.anchored != 0;
         return call.result();
@@ -1305,13 +1414,7 @@ public:
         if (!counts)
             return counts.error();
         /* What the library would refuse is refused before vectors are made. */
-        std::vector<Values<T>> none;
-        for (const ConstValues<T> &attribute : input.attributes)
-            none.emplace_back(nullptr, 0, attribute.width);
-        RefineOutput<T> nowhere;
-        nowhere.positions = Values<T>(nullptr, 0);
-        nowhere.attributes = none;
-        const Result<void> tried = try_refine_into(input, nowhere, context);
+        const Result<void> tried = try_without_room(input, context);
         if (!tried && tried.error().status() != CARVEL_STATUS_BUFFER_TOO_SMALL)
             return tried.error();
         Refined<T> refined;
@@ -1326,6 +1429,18 @@ public:
             room = room && call.grow(own, counts->vertices, attribute.width);
             attributes.emplace_back(own.data(), counts->vertices, attribute.width);
         }
+        std::vector<ChannelOutput<T>> channels;
+        for (const ChannelInput<T> &channel : input.channels) {
+            const Result<std::uint64_t> size =
+                detail::predict_channel(channel.channel, input.scheme.get(), input.levels);
+            if (!size)
+                return size.error();
+            RefinedChannel<T> &own = refined.channels.emplace_back();
+            room = room && call.grow(own.indices, counts->corners) &&
+                   call.grow(own.values, *size, channel.values.width);
+            channels.emplace_back(own.indices,
+                                  Values<T>(own.values.data(), *size, channel.values.width));
+        }
         if (!room)
             return call.result(std::move(refined));
         RefineOutput<T> output;
@@ -1334,6 +1449,7 @@ public:
         output.face_sources = refined.face_sources;
         output.positions = values(refined.positions);
         output.attributes = attributes;
+        output.channels = channels;
         const Result<void> done = try_refine_into(input, output, context);
         if (!done)
             return done.error();
@@ -1375,6 +1491,24 @@ public:
 #endif
 
 private:
+    /* A call without buffers, but with their widths. */
+    template <class T>
+    Result<void> try_without_room(const RefineInput<T> &input, const Context *context)
+    {
+        std::vector<Values<T>> attributes;
+        for (const ConstValues<T> &attribute : input.attributes)
+            attributes.emplace_back(nullptr, 0, attribute.width);
+        std::vector<ChannelOutput<T>> channels;
+        for (const ChannelInput<T> &channel : input.channels)
+            channels.emplace_back(Span<std::uint32_t>(),
+                                  Values<T>(nullptr, 0, channel.values.width));
+        RefineOutput<T> nowhere;
+        nowhere.positions = Values<T>(nullptr, 0);
+        nowhere.attributes = attributes;
+        nowhere.channels = channels;
+        return try_refine_into(input, nowhere, context);
+    }
+
     template <class T>
     static RefineInput<T> input(const Mesh &mesh, const Scheme &scheme, std::uint32_t levels,
                                 const ConstValues<T> &positions)

@@ -20,6 +20,7 @@
 #![allow(non_camel_case_types, missing_docs, clippy::missing_safety_doc)]
 
 mod buffer;
+mod channel;
 mod context;
 mod error;
 mod guard;
@@ -28,18 +29,21 @@ mod mesh;
 mod mesh_desc;
 mod object;
 mod predict;
+mod refine_desc;
 mod refiner;
 mod scheme;
 mod status;
 mod values;
 mod versioned;
 
+pub use channel::*;
 pub use context::*;
 pub use error::*;
 pub use hierarchy::*;
 pub use mesh::*;
 pub use mesh_desc::*;
 pub use predict::*;
+pub use refine_desc::*;
 pub use refiner::*;
 pub use scheme::*;
 pub use status::*;

@@ -159,6 +159,7 @@ static void fixture_free(fixture *it)
 DEFINE_INIT(carvel_context_desc)
 DEFINE_INIT(carvel_scheme_desc)
 DEFINE_INIT(carvel_mesh_desc)
+DEFINE_INIT(carvel_channel_desc)
 DEFINE_INIT(carvel_counts)
 DEFINE_INIT(carvel_survey)
 DEFINE_INIT(carvel_bytes)
@@ -959,6 +960,40 @@ static void check_predictions(const fixture *with)
 
 /* ---------------------------------------------------------------- hierarchies */
 
+/* Channels have a program of their own; this is what all descriptions share. */
+static void check_channel_sizes(const fixture *with)
+{
+    static const size_t ends[] = { offsetof(carvel_channel_desc, mode),
+                                   offsetof(carvel_channel_desc, indices),
+                                   offsetof(carvel_channel_desc, index_count),
+                                   offsetof(carvel_channel_desc, value_count) };
+    versioned version = VERSIONED(carvel_channel_desc, ends);
+    carvel_channel *channel = NULL;
+    carvel_channel_desc desc;
+    uint32_t size;
+    check_init(&version);
+    CHECK_OK(carvel_channel_desc_init(&desc, sizeof desc));
+    desc.indices = with->control->indices;
+    desc.index_count = with->control->corners;
+    desc.value_count = with->control->vertices;
+    for (size = 0; size <= sizeof desc + 9; size++) {
+        carvel_channel_desc *shorter =
+            (carvel_channel_desc *)truncated(&desc, sizeof desc, size);
+        carvel_status status = carvel_channel_create(with->mesh, shorter, &channel, failure);
+        if (!is_end(&version, size))
+            CHECK_STATUS(CARVEL_STATUS_STRUCT_SIZE, status);
+        else if (size < sizeof desc)
+            /* No indices, or no values for them. */
+            CHECK(status == CARVEL_STATUS_LENGTH_MISMATCH ||
+                  status == CARVEL_STATUS_INDEX_OUT_OF_RANGE);
+        else
+            CHECK_OK(status);
+        CHECK((channel != NULL) == (status == CARVEL_STATUS_OK));
+        carvel_channel_destroy(channel);
+        free(shorter);
+    }
+}
+
 static void check_hierarchy_create(const fixture *with)
 {
     const carvel_mesh *mesh = with->mesh;
@@ -1184,6 +1219,8 @@ int main(void)
     check_flags(&it);
     check_histogram(&it);
     check_mesh_queries(&it);
+    check_context("channels");
+    check_channel_sizes(&it);
     check_context("predictions");
     check_predictions(&it);
     check_unsupported(&it);

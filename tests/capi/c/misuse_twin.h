@@ -344,7 +344,9 @@ static versioned TWIN(input_version)(void)
         offsetof(TWIN(carvel_refine_input), positions),
         offsetof(TWIN(carvel_refine_input), attributes),
         offsetof(TWIN(carvel_refine_input), attribute_count),
-        offsetof(TWIN(carvel_refine_input), interpolations)
+        offsetof(TWIN(carvel_refine_input), interpolations),
+        offsetof(TWIN(carvel_refine_input), channels),
+        offsetof(TWIN(carvel_refine_input), channel_count)
     };
     return versioned_of("carvel_refine_input", TWIN(init_input),
                         sizeof(TWIN(carvel_refine_input)), ends, sizeof ends / sizeof ends[0]);
@@ -360,7 +362,9 @@ static versioned TWIN(output_version)(void)
         offsetof(TWIN(carvel_refine_output), face_sources),
         offsetof(TWIN(carvel_refine_output), positions),
         offsetof(TWIN(carvel_refine_output), attributes),
-        offsetof(TWIN(carvel_refine_output), attribute_count)
+        offsetof(TWIN(carvel_refine_output), attribute_count),
+        offsetof(TWIN(carvel_refine_output), channels),
+        offsetof(TWIN(carvel_refine_output), channel_count)
     };
     return versioned_of("carvel_refine_output", TWIN(init_output),
                         sizeof(TWIN(carvel_refine_output)), ends, sizeof ends / sizeof ends[0]);
@@ -404,7 +408,7 @@ static void TWIN(check_output_sizes)(TWIN(job) *it)
         TWIN(carvel_refine_output) *output =
             (TWIN(carvel_refine_output) *)truncated(&it->output, sizeof it->output, size);
         carvel_status status;
-        if (size >= sizeof *output)
+        if (size >= offsetof(TWIN(carvel_refine_output), channels))
             output->attribute_count = 0;
         status = TWIN(carvel_refiner_refine)(it->refiner, NULL, &it->input, output, failure);
         if (!is_end(&version, size))

@@ -68,6 +68,11 @@ fn primal_schemes_and_tags_do_as_opensubdiv_says() {
 }
 
 #[test]
+fn channels_keep_their_seams() {
+    run_with_both("channel", &[]);
+}
+
+#[test]
 fn contexts_bring_threads_and_limits() {
     run_with_both("context", &[]);
 }
