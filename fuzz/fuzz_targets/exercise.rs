@@ -18,6 +18,10 @@ fn round_trip(mesh: &MeshFile, format: Format) {
     let mut out = Vec::new();
     io::write_to(&mut out, format, mesh, &options).expect("it can be written");
     let back = io::read_from(&out[..], format, "back").expect("it can be read again");
+    if format == Format::Obj {
+        assert_eq!((&back.creases, &back.holes), (&mesh.creases, &mesh.holes));
+        assert_eq!((&back.sharp_vertices, back.scheme), (&mesh.sharp_vertices, mesh.scheme));
+    }
     if format != Format::Stl {
         assert_eq!(back.positions, mesh.positions);
         assert_eq!(back.face_vertices, mesh.face_vertices);

@@ -4,6 +4,7 @@ mod context;
 mod error;
 mod fraction;
 pub(crate) mod memory;
+mod pages;
 mod scalar;
 mod tags;
 

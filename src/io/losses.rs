@@ -1,6 +1,6 @@
 //! What a format cannot keep of a mesh.
 
-use super::{Format, MeshFile};
+use super::{Format, MeshFile, SchemeTags};
 
 /// One line for each thing in the mesh that the format cannot hold, for the
 /// user to know before it is gone.
@@ -12,6 +12,7 @@ pub fn losses(mesh: &MeshFile, format: Format) -> Vec<String> {
     };
     if format != Format::Obj {
         lost.extend(names(mesh, format));
+        lost.extend(tags(mesh));
     }
     if format != Format::Ply {
         lost.extend(mesh.attributes.iter().map(|a| format!("the vertex attribute {}", a.name)));
@@ -66,6 +67,21 @@ fn names(mesh: &MeshFile, format: Format) -> Vec<String> {
         .collect();
     if !mesh.material_libraries.is_empty() {
         lost.push("the names of material libraries".to_owned());
+    }
+    lost
+}
+
+/// Sharp features and what the file asks of the scheme.
+fn tags(mesh: &MeshFile) -> Vec<String> {
+    let counted = [
+        (mesh.creases.len(), "creases"),
+        (mesh.sharp_vertices.len(), "sharp vertices"),
+        (mesh.holes.len(), "holes"),
+    ];
+    let some = counted.iter().filter(|(n, _)| *n > 0);
+    let mut lost: Vec<_> = some.map(|(n, what)| format!("{n} {what}")).collect();
+    if mesh.scheme != SchemeTags::default() {
+        lost.push("the tags of the scheme".to_owned());
     }
     lost
 }

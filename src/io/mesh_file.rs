@@ -1,7 +1,8 @@
 //! A polygon mesh as a file holds it.
 
 use super::Labels;
-use crate::base::{Element, Error, ErrorKind, NONE, Result};
+use super::tags::{self, SchemeTags};
+use crate::base::{Crease, Element, Error, ErrorKind, NONE, Result, SharpVertex};
 
 /// A polygon mesh as a file holds it: indices checked against the arrays,
 /// nothing about manifoldness.
@@ -41,6 +42,14 @@ pub struct MeshFile {
     pub smoothing: Labels,
     /// OBJ material libraries, one `mtllib` line each.
     pub material_libraries: Vec<String>,
+    /// Sharp edges, in any order. Whether the mesh has such edges is not checked here.
+    pub creases: Vec<Crease>,
+    /// Sharp vertices, in any order.
+    pub sharp_vertices: Vec<SharpVertex>,
+    /// The faces that are holes, in any order.
+    pub holes: Vec<u32>,
+    /// What the file asks of the scheme.
+    pub scheme: SchemeTags,
     /// Further vertex attributes of a PLY file.
     pub attributes: Vec<VertexAttribute>,
     /// One line for each thing that was in the file and could not be kept.
@@ -126,13 +135,15 @@ impl MeshFile {
     /// # Errors
     /// [`ErrorKind::LengthMismatch`], [`ErrorKind::FaceTooSmall`],
     /// [`ErrorKind::IndexOutOfRange`], [`ErrorKind::NotFinite`],
-    /// [`ErrorKind::TooLarge`] for more than 2³²−1 vertices or faces, and
-    /// [`ErrorKind::InvalidText`] for a name that cannot stand in a file.
+    /// [`ErrorKind::TooLarge`] for more than 2³²−1 vertices or faces,
+    /// [`ErrorKind::InvalidTag`] for a negative sharpness or a crease from a vertex to
+    /// itself, and [`ErrorKind::InvalidText`] for a name that cannot stand in a file.
     pub fn check(&self) -> Result<()> {
         self.check_sizes()?;
         self.check_lengths()?;
         self.check_indices()?;
         self.check_numbers()?;
+        tags::check(self)?;
         self.check_names()
     }
 

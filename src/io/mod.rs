@@ -10,6 +10,12 @@
 //! for binary data. Their text counts as the format does (OBJ from 1, the
 //! others from 0); their [`Element`](crate::Element)s always count from 0.
 //!
+//! Creases, sharp vertices, holes and what belongs to the scheme are read from OBJ
+//! and written back, as the statement `t` of OpenSubdiv's shape files: `t crease
+//! 2/1/0 4 7 2.5`, `t corner 1/1/0 3 10`, `t hole 1/0/0 5`. The three counts are
+//! those of the integers, numbers and words that follow; vertices and faces count
+//! from 0 there. `src/io/obj/tag/mod.rs` lists all forms.
+//!
 //! Nothing is reserved on the word of a header: memory grows with the data that
 //! arrives, so a hostile file costs a multiple of its own size at most.
 
@@ -28,6 +34,7 @@ mod ply;
 mod sink;
 mod stl;
 mod stream;
+mod tags;
 mod target;
 mod watch;
 
@@ -36,6 +43,7 @@ pub use labels::Labels;
 pub use losses::losses;
 pub use mesh_file::{ColorType, MeshFile, NumberType, VertexAttribute, VertexColors};
 pub use options::{Encoding, Precision, Progress, ReadOptions, WriteOptions};
+pub use tags::{BoundaryTag, CreasingTag, FaceVaryingTag, SchemeTags, TriangleTag};
 
 use crate::base::{Error, Result};
 use sink::Sink;
@@ -60,6 +68,8 @@ const BUFFER: usize = 256 * 1024;
 /// [`FaceTooSmall`](crate::ErrorKind::FaceTooSmall) for such faces,
 /// [`NotFinite`](crate::ErrorKind::NotFinite) and
 /// [`Overflow`](crate::ErrorKind::Overflow) for such numbers,
+/// [`InvalidTag`](crate::ErrorKind::InvalidTag) for a negative sharpness or a crease
+/// from a vertex to itself,
 /// [`TooLarge`](crate::ErrorKind::TooLarge) for more elements than an index can
 /// name, [`Cancelled`](crate::ErrorKind::Cancelled) if the progress hook says so.
 pub fn read(path: &Path, options: &ReadOptions<'_>) -> Result<MeshFile> {

@@ -84,8 +84,10 @@ impl PrimalSplit<'_> {
         context.fill(out, 16, |face, part| {
             let faces = (4 * face as u32..).step_by(4).zip(&parents[face..]);
             for ((c, twins), out) in faces.zip(part.as_chunks_mut::<16>().0) {
-                let near = twins.map(|t| or_none(t, 4 * turn_in_quad(0, t, 1) + 3));
-                let far = twins.map(|t| or_none(t, 4 * t));
+                // Without a twin the product is thrown away: it may wrap.
+                let fours = |corner: u32| corner.wrapping_mul(4);
+                let near = twins.map(|t| or_none(t, fours(turn_in_quad(0, t, 1)) | 3));
+                let far = twins.map(|t| or_none(t, fours(t)));
                 for i in 0..4 {
                     let (next, before) = ((i + 1) % 4, (i + 3) % 4);
                     out[4 * i] = near[i];

@@ -1,6 +1,6 @@
 //! What travels with a mesh: names of faces, colours, texture coordinates.
 
-use super::bench::{Bench, COW};
+use super::bench::{Bench, COW, STRIP};
 use carvel::io::MeshFile;
 use std::fmt::Write as _;
 use std::fs;
@@ -170,4 +170,21 @@ fn ply_attributes_are_refined() {
         assert!((p[0] - heat).abs() < 1e-6, "{p:?} {heat}");
     }
     assert!(mesh.colors.unwrap().values.chunks(3).all(|c| c == [1.0, 0.0, 0.0]));
+}
+
+#[test]
+fn tags_are_kept_at_level_zero_and_told_where_they_are_not() {
+    let bench = Bench::new();
+    let tags = "t crease 2/1/0 1 4 2.5\nt corner 2/1/0 0 2 10\nt creasemethod 0/0/1 chaikin\n";
+    bench.put("tags.obj", format!("{STRIP}{tags}"));
+    let run = bench.run("subdivide tags.obj -o kept.obj --levels 0").ok();
+    assert!(!run.err.contains("note"), "{}", run.err);
+    let (before, after) = (bench.mesh("tags.obj"), bench.mesh("kept.obj"));
+    assert_eq!((before.creases, before.sharp_vertices), (after.creases, after.sharp_vertices));
+    assert_eq!(before.scheme, after.scheme);
+    let run = bench.run("subdivide tags.obj -o out.obj --levels 1").ok();
+    let note = "left out 1 crease, 2 sharp vertices, the tags of the scheme: \
+        the dual schemes have none";
+    assert!(run.err.contains(note), "{}", run.err);
+    assert!(bench.mesh("out.obj").creases.is_empty());
 }

@@ -6,6 +6,7 @@
 
 mod bench;
 mod carried;
+mod cases;
 mod hostile;
 mod pictures;
 mod places;

@@ -6,7 +6,9 @@ use proptest::prelude::*;
 /// A small file of each format and encoding, with a bit of everything.
 fn seeds() -> Vec<(Format, Vec<u8>)> {
     let obj = "mtllib a\no x\nv 0 0 0 1 0 0\nv 1 0 0 0 1 0\nv 1 1e0 0 0 0 1\nv 0 1 -.5 1 1 1\n\
-        vt 0 0\nvt 1 0\nvn 0 0 1\ng a b\nusemtl m\ns 1\nf 1/1/1 2//1 3/2 -1\nl 1 2\nf 1 \\\n2 3\n";
+        vt 0 0\nvt 1 0\nvn 0 0 1\ng a b\nusemtl m\ns 1\nf 1/1/1 2//1 3/2 -1\nl 1 2\nf 1 \\\n2 3\n\
+        t crease 3/2/0 0 1 2 .3 10\nt corner 2/1/0 0 3 1.5\nt hole 1/0/0 1\nt interpolateboundary 1/0/0 1\n\
+        t creasemethod 0/0/1 chaikin\nt edit 1/1/1 0 1 a\n";
     let mesh = io::read_from(obj.as_bytes(), Format::Obj, "seed").unwrap();
     let by_vertex = MeshFile {
         uvs: vec![[0.0, 0.5]; 4],
@@ -57,6 +59,10 @@ fn write_and_read(mesh: &MeshFile, format: Format) {
     let mut out = Vec::new();
     io::write_to(&mut out, format, mesh, &options).unwrap();
     let back = io::read_from(&out[..], format, "back").unwrap();
+    if format == Format::Obj {
+        assert_eq!((&back.creases, &back.holes), (&mesh.creases, &mesh.holes));
+        assert_eq!((&back.sharp_vertices, back.scheme), (&mesh.sharp_vertices, mesh.scheme));
+    }
     if format != Format::Stl {
         assert_eq!(back.positions, mesh.positions);
         assert_eq!(back.face_vertices, mesh.face_vertices);

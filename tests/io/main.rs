@@ -4,3 +4,4 @@ mod files;
 mod formats;
 mod hostile;
 mod obj;
+mod tags;

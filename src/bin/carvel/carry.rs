@@ -5,7 +5,7 @@
 
 use crate::seams::ByCorner;
 use carvel::base::NONE;
-use carvel::io::{Labels, MeshFile, VertexAttribute, VertexColors};
+use carvel::io::{Labels, MeshFile, SchemeTags, VertexAttribute, VertexColors};
 
 /// Data on the vertices of a control mesh, besides the positions.
 #[derive(Debug, Clone, PartialEq)]
@@ -100,6 +100,24 @@ fn by_corner<'a, const N: usize>(
         indices,
         records,
     })
+}
+
+/// One line about the subdivision tags of a file, if it has any: no scheme here knows
+/// what to do with them yet.
+pub fn ignored_tags(file: &MeshFile) -> Option<String> {
+    let counted = [
+        (file.creases.len(), "crease", "creases"),
+        (file.sharp_vertices.len(), "sharp vertex", "sharp vertices"),
+        (file.holes.len(), "hole", "holes"),
+    ];
+    let some = counted.into_iter().filter(|(n, ..)| *n > 0);
+    let some = some.map(|(n, one, many)| format!("{n} {}", if n == 1 { one } else { many }));
+    let mut ignored: Vec<_> = some.collect();
+    if file.scheme != SchemeTags::default() {
+        ignored.push("the tags of the scheme".to_owned());
+    }
+    (!ignored.is_empty())
+        .then(|| format!("left out {}: the dual schemes have none", ignored.join(", ")))
 }
 
 /// Puts refined vertex data into the file that holds the refined mesh.

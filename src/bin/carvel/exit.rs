@@ -73,10 +73,11 @@ impl Exit {
             | K::InconsistentOrientation
             | K::NonManifoldEdge
             | K::NonManifoldVertex
-            | K::NotAnchored => Self::Mesh,
+            | K::NotAnchored
+            | K::InvalidTag => Self::Mesh,
             K::NotFinite | K::Overflow => Self::Values,
             K::TooLarge | K::MemoryCeiling | K::OutOfResources => Self::Size,
-            K::InvalidTag | K::ParameterOutOfRange | K::InvalidText => Self::Usage,
+            K::ParameterOutOfRange | K::InvalidText => Self::Usage,
             K::Cancelled => Self::Cancelled,
             K::Io | K::Syntax | K::Unsupported => Self::of_file(doing),
             _ => Self::Internal,

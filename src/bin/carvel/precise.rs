@@ -63,7 +63,8 @@ impl Precise for f32 {
 }
 
 fn too_large(value: f64, vertex: usize) -> Error {
-    let message = format!("the value {value:e} at a vertex is too large for single precision");
+    let message =
+        format!("the value {value:e} at vertex {vertex} is too large for single precision");
     Error::new(ErrorKind::Overflow, message).with_elements([Element::Vertex(vertex as u64)])
 }
 

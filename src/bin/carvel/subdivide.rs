@@ -1,6 +1,7 @@
 //! The command `subdivide`.
 
 use crate::args::{Chosen, NumberType, SubdivideArgs};
+use crate::carry;
 use crate::exit::{Doing, Exit, Failure};
 use crate::faults;
 use crate::input::{Input, ends_the_run};
@@ -159,6 +160,7 @@ impl Run<'_> {
         let mut notes = input.file.notes.clone();
         notes.extend(cut(&input.file, &built));
         notes.extend(dropped);
+        notes.extend(carry::ignored_tags(&input.file));
         Ok(Made { file, levels: Level::all(&plan), anchored, scratch: Some(scratch), notes })
     }
 

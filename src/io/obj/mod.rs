@@ -6,6 +6,7 @@
 
 mod corner;
 mod read;
+mod tag;
 mod vertex;
 mod write;
 

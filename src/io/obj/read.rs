@@ -1,6 +1,7 @@
 //! Reads OBJ statement by statement.
 
 use super::corner::{self, OptionalIndices};
+use super::tag::Tags;
 use super::vertex::{ColorBuilder, numbers};
 use crate::base::{Error, ErrorKind, Result};
 use crate::io::MeshFile;
@@ -39,6 +40,7 @@ struct Parser<'a> {
     smoothing: LabelBuilder,
     weights: u64,
     depths: u64,
+    tags: Tags,
     dropped: BTreeMap<String, u64>,
 }
 
@@ -57,6 +59,7 @@ impl<'a> Parser<'a> {
             smoothing: LabelBuilder::new(),
             weights: 0,
             depths: 0,
+            tags: Tags::default(),
             dropped: BTreeMap::new(),
         }
     }
@@ -73,6 +76,7 @@ impl<'a> Parser<'a> {
             b"g" => set(&mut self.groups, place, &words),
             b"usemtl" => set(&mut self.materials, place, &words),
             b"s" => self.smoothing(place, &words),
+            b"t" => self.tag(place, &words),
             b"mtllib" => self.library(place, &words),
             [b'#', ..] => comment(place, line),
             _ => self.drop_statement(place, keyword, &words),
@@ -175,6 +179,17 @@ impl<'a> Parser<'a> {
         Ok(())
     }
 
+    fn tag(&mut self, place: Place<'_>, words: &Words<'_>) -> Result<()> {
+        if self.tags.statement(place, words.clone())? {
+            return Ok(());
+        }
+        place.text(words.rest())?;
+        let name = words.clone().next().filter(|name| is_keyword(name));
+        let name = name.and_then(|name| std::str::from_utf8(name).ok()).unwrap_or_default();
+        self.count_dropped(format!("t {name}").trim_end());
+        Ok(())
+    }
+
     /// Counts a statement that is none of ours, if it is a statement at all.
     fn drop_statement(
         &mut self,
@@ -182,12 +197,16 @@ impl<'a> Parser<'a> {
         keyword: &[u8],
         words: &Words<'_>,
     ) -> Result<()> {
-        let plain = |b: &u8| b.is_ascii_alphanumeric() || matches!(b, b'_' | b'-' | b'.');
-        if !keyword[0].is_ascii_alphabetic() || !keyword.iter().all(plain) || keyword.len() > 40 {
+        if !is_keyword(keyword) {
             return Err(place.unexpected(keyword, "an OBJ keyword"));
         }
         let keyword = place.text(keyword)?;
         place.text(words.rest())?;
+        self.count_dropped(keyword);
+        Ok(())
+    }
+
+    fn count_dropped(&mut self, keyword: &str) {
         if let Some(n) = self.dropped.get_mut(keyword) {
             *n += 1;
         } else {
@@ -195,7 +214,6 @@ impl<'a> Parser<'a> {
             let keyword = if full { "of other kinds" } else { keyword };
             *self.dropped.entry(keyword.to_owned()).or_default() += 1;
         }
-        Ok(())
     }
 
     fn finish(mut self) -> Result<MeshFile> {
@@ -215,6 +233,7 @@ impl<'a> Parser<'a> {
         self.mesh.colors = self.colors.finish();
         self.mesh.face_uvs = self.face_uvs.finish();
         self.mesh.face_normals = self.face_normals.finish();
+        self.tags.finish(self.name, &mut self.mesh)?;
         Ok(self.mesh)
     }
 
@@ -266,6 +285,11 @@ impl<'a> Parser<'a> {
             _ => format!("{n} statements {keyword} were dropped"),
         }));
     }
+}
+
+fn is_keyword(word: &[u8]) -> bool {
+    let plain = |b: &u8| b.is_ascii_alphanumeric() || matches!(b, b'_' | b'-' | b'.');
+    word[0].is_ascii_alphabetic() && word.iter().all(plain) && word.len() <= 40
 }
 
 #[cold]

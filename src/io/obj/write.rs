@@ -1,5 +1,6 @@
-//! Writes OBJ: vertices, texture coordinates, normals, then the faces.
+//! Writes OBJ: vertices, texture coordinates, normals, the faces, then their tags.
 
+use super::tag;
 use crate::base::{NONE, Result};
 use crate::io::mesh_file::bad_name;
 use crate::io::sink::Sink;
@@ -15,7 +16,8 @@ pub(in crate::io) fn write<W: Write>(sink: &mut Sink<'_, W>, mesh: &MeshFile) ->
     vertices(sink, mesh)?;
     records(sink, "vt", mesh.uvs.iter().map(|uv| &uv[..]))?;
     records(sink, "vn", mesh.normals.iter().map(|normal| &normal[..]))?;
-    faces(sink, mesh)
+    faces(sink, mesh)?;
+    tag::write(sink, mesh)
 }
 
 /// A backslash at the end of a line would join the next one to the name.

@@ -1,7 +1,7 @@
 /* The golden cases from C: argument 1 is a list of them, made by the Rust side.
  * Each is refined by a refiner and by a hierarchy, in f64 and in f32, and
  * compared as an unordered mesh. Prints the names of the cases that ran. */
-#include "fixture.h"
+#include "reading.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -22,53 +22,12 @@ typedef struct golden_case {
 
 /* ---------------------------------------------------------------- reading */
 
-static void misread(const char *what)
-{
-    fprintf(stderr, "the list of cases is broken at %s\n", what);
-    exit(1);
-}
-
-static unsigned long read_number(FILE *file)
-{
-    unsigned long number;
-    if (fscanf(file, "%lu", &number) != 1)
-        misread("a number");
-    return number;
-}
-
 static int64_t read_signed(FILE *file)
 {
     long number;
     if (fscanf(file, "%ld", &number) != 1)
         misread("a fraction");
     return number;
-}
-
-static double read_double(FILE *file)
-{
-    double number;
-    if (fscanf(file, "%lf", &number) != 1)
-        misread("a coordinate");
-    return number;
-}
-
-/* Vertices, faces, sizes, indices, positions. */
-static poly *read_poly(FILE *file)
-{
-    uint64_t vertices = read_number(file), faces = read_number(file);
-    uint64_t corners = read_number(file), i;
-    uint32_t *sizes = TAKE(uint32_t, faces), *indices = TAKE(uint32_t, corners);
-    poly *it;
-    for (i = 0; i < faces; i++)
-        sizes[i] = (uint32_t)read_number(file);
-    for (i = 0; i < corners; i++)
-        indices[i] = (uint32_t)read_number(file);
-    it = poly_of(vertices, faces, sizes, indices);
-    for (i = 0; i < 3 * vertices; i++)
-        it->positions[i] = read_double(file);
-    free(sizes);
-    free(indices);
-    return it;
 }
 
 /* 0 at the end of the list. */
@@ -317,10 +276,8 @@ static void run_case(const golden_case *it)
 
 int main(int count, char **arguments)
 {
-    FILE *file = count > 1 ? fopen(arguments[1], "r") : NULL;
+    FILE *file = read_file(count, arguments);
     golden_case it;
-    if (file == NULL)
-        misread("its name");
     check_begin();
     while (read_case(file, &it)) {
         run_case(&it);

@@ -10,7 +10,7 @@ use crate::program::{self, Limit};
 use crate::{c_directory, work_directory};
 
 /// What every program is linked with.
-const SHARED: [&str; 2] = ["check", "fixture"];
+const SHARED: [&str; 3] = ["check", "fixture", "reading"];
 
 /// The programs' names: every source that is neither linked with all of them nor
 /// for an installed library.
