@@ -896,7 +896,8 @@ enum carvel_face_varying {
     /* Boundaries are smooth curves, but values of a single face stay.
      * FVAR_LINEAR_CORNERS_ONLY. */
     CARVEL_FACE_VARYING_CORNERS = 0,
-    /* Corners are rounded off, too. FVAR_LINEAR_NONE. */
+    /* Corners are rounded off, too, but for those that the scheme keeps as vertices.
+     * FVAR_LINEAR_NONE. */
     CARVEL_FACE_VARYING_SMOOTH = 1,
     /* As CORNERS, and values stay where three and more meet at a vertex, or where
      * one of two is not one piece. FVAR_LINEAR_CORNERS_PLUS1. */

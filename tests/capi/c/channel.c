@@ -87,34 +87,28 @@ static void check_modes(void)
     check_staying(nook, 2, single);
 }
 
-/* A lone quad's values by hand: rounded off, or left. */
-static void check_quad(void)
+/* A lone quad's values by hand: rounded off, or left. SMOOTH does no more than the
+ * scheme does to vertices, which keeps corners unless the boundary rule is EDGE. */
+static void check_quad(int32_t mode, int32_t boundary, int is_round)
 {
     static const uint32_t own[4] = { 0, 1, 2, 3 };
     static const double unit[8] = { 0, 0, 1, 0, 1, 1, 0, 1 };
     static const double round[8] = { 0.125, 0.125, 0.875, 0.125, 0.875, 0.875, 0.125, 0.875 };
     poly *quad = poly_grid(1, 1);
     carvel_mesh *mesh = poly_mesh(quad);
-    carvel_scheme *scheme = scheme_of(CARVEL_SCHEME_CATMULL_CLARK, 0);
-    carvel_channel *channel;
+    carvel_scheme *scheme = scheme_of(CARVEL_SCHEME_CATMULL_CLARK, boundary);
+    carvel_channel *channel = channel_of(mesh, own, 4, 4, mode);
+    const double *expected = is_round ? round : unit;
     job_f64 it;
-    int i;
-    check_context("quad");
-    for (i = 0; i < 2; i++) {
-        channel = channel_of(mesh, own, 4, 4,
-                             i == 0 ? CARVEL_FACE_VARYING_SMOOTH : CARVEL_FACE_VARYING_CORNERS);
-        job_take_f64(&it, quad, mesh, scheme, channel, 4, 1);
-        memcpy(it.values, unit, sizeof unit);
-        CHECK_UINT(9, it.value_count);
-        CHECK_OK(run_f64(&it));
-        /* Numbered by the mesh's vertices: 0 2 3 1 are its corners. */
-        CHECK_BYTES((i == 0 ? round : unit), it.refined + 2 * it.indices[0], 2 * sizeof(double));
-        CHECK_BYTES((i == 0 ? round : unit) + 4, it.refined + 2 * it.indices[8],
-                    2 * sizeof(double));
-        check_behind_f64(&it);
-        job_free_f64(&it);
-        carvel_channel_destroy(channel);
-    }
+    job_take_f64(&it, quad, mesh, scheme, channel, 4, 1);
+    memcpy(it.values, unit, sizeof unit);
+    CHECK_UINT(9, it.value_count);
+    CHECK_OK(run_f64(&it));
+    CHECK_BYTES(expected, it.refined + 2 * it.indices[0], 2 * sizeof(double));
+    CHECK_BYTES(expected + 4, it.refined + 2 * it.indices[8], 2 * sizeof(double));
+    check_behind_f64(&it);
+    job_free_f64(&it);
+    carvel_channel_destroy(channel);
     carvel_scheme_destroy(scheme);
     carvel_mesh_destroy(mesh);
     poly_free(quad);
@@ -258,7 +252,10 @@ int main(void)
     check_f32();
     check_f64();
     check_modes();
-    check_quad();
+    check_context("quad");
+    check_quad(CARVEL_FACE_VARYING_SMOOTH, CARVEL_BOUNDARY_EDGE, 1);
+    check_quad(CARVEL_FACE_VARYING_SMOOTH, CARVEL_BOUNDARY_EDGE_AND_CORNER, 0);
+    check_quad(CARVEL_FACE_VARYING_CORNERS, CARVEL_BOUNDARY_EDGE, 0);
     carvel_mesh_destroy(mesh);
     poly_free(strip);
     return check_end();

@@ -2,6 +2,7 @@
 #include "check.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cstring>
 
 static const Pyramid pyramid;
@@ -198,6 +199,52 @@ static void varying_values_stay_linear()
     CHECK(!none && none.error().status() == CARVEL_STATUS_UNSUPPORTED);
 }
 
+/* Two quads with a seam between them: 8 values on 6 vertices. */
+static void channels_keep_their_seams()
+{
+    const std::uint32_t strip[] = {0, 1, 4, 3, 1, 2, 5, 4};
+    const std::vector<float> points = {0, 0, 0, 1, 0, 0, 2, 0, 0, 0, 1, 0, 1, 1, 0, 2, 1, 0};
+    const std::uint32_t own[] = {0, 1, 2, 3, 4, 5, 6, 7};
+    const std::vector<std::array<float, 2>> uv = {{0, 0}, {1, 0}, {1, 1}, {0, 1},
+                                                  {5, 5}, {6, 5}, {6, 6}, {5, 6}};
+    const carvel::Mesh mesh = carvel::Mesh::create(carvel::Faces::of_size(6, 4, strip));
+    const carvel::Scheme scheme = carvel::Scheme::create({CARVEL_SCHEME_CATMULL_CLARK});
+    const carvel::Channel cut = carvel::Channel::create(mesh, own, uv.size());
+    const carvel::Channel whole = carvel::Channel::create(mesh, strip, 6, CARVEL_FACE_VARYING_ALL);
+    CHECK(cut.seam_edges() == 1 && whole.seam_edges() == 0 && carvel::Channel().seam_edges() == 0);
+    CHECK(carvel::predict_channel(cut, scheme, 1) == 18);
+    const carvel::ChannelInput<float> channels[] = {{cut, carvel::values(uv)},
+                                                    {whole, carvel::values(points)}};
+    carvel::RefineInput<float> input{mesh, scheme, 1, carvel::values(points)};
+    input.channels = channels;
+    const carvel::Refined<float> refined = carvel::refine(input);
+    CHECK(refined.channels.size() == 2 && refined.channels[0].indices.size() == 32);
+    CHECK(refined.channels[0].values.size() == 36);
+    for (std::size_t corner = 0; corner < 8; ++corner) {
+        /* Single faces keep their values; the second channel is linear. */
+        const std::size_t at = refined.channels[0].indices[4 * corner];
+        CHECK(refined.channels[0].values[2 * at] == uv[corner][0]);
+        CHECK(refined.channels[0].values[2 * at + 1] == uv[corner][1]);
+        const std::size_t linear = refined.channels[1].indices[4 * corner];
+        CHECK(refined.channels[1].values[3 * linear] == points[3 * strip[corner]]);
+    }
+    CHECK(THROWN(carvel::Channel::create(mesh, own, 7)) == CARVEL_STATUS_INDEX_OUT_OF_RANGE);
+    const carvel::Scheme dual = carvel::Scheme::create();
+    const carvel::RefineInput<float> other{mesh, dual, 1, carvel::values(points), {}, {}, channels};
+    CHECK(THROWN(carvel::refine(other)) == CARVEL_STATUS_UNSUPPORTED);
+    CHECK(THROWN(carvel::predict_channel(cut, dual, 1)) == CARVEL_STATUS_UNSUPPORTED);
+    std::vector<std::uint32_t> few(31);
+    std::vector<float> room(36);
+    std::vector<float> positions(3 * refined.vertex_count());
+    const carvel::ChannelOutput<float> narrow[] = {{few, carvel::values(room, 2)}};
+    carvel::RefineOutput<float> output;
+    output.positions = carvel::values(positions);
+    output.channels = narrow;
+    input.channels = {channels, 1};
+    CHECK(THROWN(carvel::Refiner::create().refine_into(input, output)) ==
+          CARVEL_STATUS_BUFFER_TOO_SMALL);
+}
+
 static void predictions_hold()
 {
     const carvel::Mesh mesh = carvel::Mesh::create(pyramid.faces());
@@ -257,6 +304,7 @@ int main()
     tags_reach_the_mesh();
     primal_options_reach_the_scheme();
     varying_values_stay_linear();
+    channels_keep_their_seams();
     predictions_hold();
     lineage_and_rows_are_told();
     std::puts("queries: ok");
