@@ -1,8 +1,8 @@
 //! The C interface: `include/carvel.h`, object by object.
 //!
-//! A file for each object of the header, in its order; each function checks what
-//! it is given, borrows, calls the kernel once and writes out. The rest is what
-//! they share:
+//! A file for each object of the header, in its order, and one for each description
+//! that is long (`mesh_desc`, `refine_desc`); each function checks what it is given,
+//! borrows, calls the kernel once and writes out. The rest is what they share:
 //!
 //! | file | its idea |
 //! |---|---|
