@@ -110,16 +110,8 @@ impl PrimalSplit<'_> {
                 *slot = if corner == NONE { NONE } else { self.start_half(corner) };
             }
         })?;
-        let mut parts = memory::reserved(self.edges.chunks.len())?;
-        let mut rest = edges;
-        for chunk in &self.edges.chunks {
-            let (part, later) = rest.split_at_mut(chunk.edges.len());
-            parts.push((chunk.corners.clone(), part));
-            rest = later;
-        }
-        context.for_each(parts, |(corners, part)| {
-            let leaders = corners.filter(|&c| parent.is_first_of_edge(c));
-            for (slot, c) in part.iter_mut().zip(leaders) {
+        context.fill(edges, 1, |start, part| {
+            for (slot, &c) in part.iter_mut().zip(&self.edges.first[start..]) {
                 *slot = self.end_half(c);
             }
         })?;
