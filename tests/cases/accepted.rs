@@ -10,7 +10,8 @@ use crate::case::{Case, Outcome};
 use crate::cases;
 
 /// Policies with the words that the cases have for them. More are a line each.
-const POLICIES: [(&str, NonManifold); 2] = [("", NonManifold::Error), ("cut", NonManifold::Cut)];
+const POLICIES: [(&str, NonManifold); 3] =
+    [("", NonManifold::Error), ("cut", NonManifold::Cut), ("sharpen", NonManifold::Sharpen)];
 
 /// The mesh of a case. Meshes take no creases, sharp vertices and holes yet, so that what
 /// cases `expect tags` is not asked for either.
