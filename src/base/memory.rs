@@ -7,8 +7,7 @@ use bytemuck::Zeroable;
 
 /// An array of zeros. Large ones are untouched pages straight from the system.
 pub(crate) fn zeroed<T: Zeroable>(len: usize) -> Result<Vec<T>> {
-    let mut list =
-        bytemuck::allocation::try_zeroed_vec(len).map_err(|()| refused::<T>(len))?;
+    let mut list = bytemuck::allocation::try_zeroed_vec(len).map_err(|()| refused::<T>(len))?;
     prefer_huge(&mut list);
     Ok(list)
 }
