@@ -11,7 +11,9 @@ PROFILE ?= release
 LIB = out/lib/$(PROFILE)
 export PREFIX DESTDIR LIBDIR INCLUDEDIR STRIP_DEBUG
 
-.PHONY: demo test lint deep fuzz bench abi-record lib install uninstall tools test-tools clean
+COMPARED = $(if $(MESH),--mesh '$(MESH)') $(if $(LEVEL),--level '$(LEVEL)') $(COMPARE_FLAGS)
+
+.PHONY: demo test lint deep fuzz bench compare abi-record lib install uninstall tools test-tools clean
 
 # Refines the cow and the founding paper's torus into out/.
 demo: tools
@@ -56,6 +58,11 @@ fuzz:
 # Speed; results with date and machine are kept in benches/README.md.
 bench: tools
 	$(CARGO) bench --all-features --locked
+
+# Answers, speed and memory beside OpenSubdiv, OpenMesh and CGAL, into out/compare.json;
+# MESH=file.obj LEVEL=3 for a mesh of one's own.
+compare: test-tools
+	$(CARGO) run --release --locked --quiet -p carvel-peers --bin compare -- $(COMPARED)
 
 # Records the C interface after a change that docs/abi.md allows.
 abi-record: test-tools

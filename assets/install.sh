@@ -1,7 +1,8 @@
 #!/bin/sh
 # Installs what the build needs on a bare Debian: a C linker, and the formatter and the
 # linter where rustup has not brought them. Rust itself is only looked for.
-# `install.sh tests`: also the compilers, libraries and checkers of the C and C++ tests.
+# `install.sh tests`: also the compilers, libraries and checkers of the C and C++ tests,
+# and the libraries that carvel is compared with.
 set -eu
 
 if ! command -v cargo >/dev/null 2>&1; then
@@ -45,6 +46,8 @@ if [ "${1:-}" = tests ]; then
     file_of libc6-dev /usr/include/stdio.h
     file_of libclang-dev /usr/lib/llvm-*/lib/libclang.so /usr/lib*/libclang.so
     file_of libopenmesh-dev /usr/include/OpenMesh /usr/local/include/OpenMesh
+    file_of libosd-dev /usr/include/opensubdiv /usr/local/include/opensubdiv
+    file_of libcgal-dev /usr/include/CGAL /usr/local/include/CGAL
     file_of libeigen3-dev /usr/include/eigen3 /usr/local/include/eigen3
 fi
 if [ -n "$missing" ]; then

@@ -8,7 +8,7 @@ use super::values::{check, check_overflow, lanes};
 use crate::base::{Context, Error, ErrorKind, Result, Scalar, memory};
 use crate::mesh::{Channel, Mesh};
 use crate::refine::adjacency::Recycled;
-use crate::refine::{Carried, Creasing, PrimalSplit, Split};
+use crate::refine::{Carried, Creasing, EdgeNumbers, PrimalSplit, Split};
 use crate::scheme::{ChannelLevel, ChannelRules, Scheme};
 use std::borrow::Cow;
 
@@ -105,7 +105,7 @@ pub(super) struct ChannelRun<'a, T> {
     /// The caller's values, one record for each pair of vertex and value.
     input: Vec<T>,
     columns: Vec<(Column<T>, Place)>,
-    edges: Vec<u32>,
+    edges: EdgeNumbers,
 }
 
 impl<'a, T: Scalar> ChannelRun<'a, T> {
@@ -124,7 +124,7 @@ impl<'a, T: Scalar> ChannelRun<'a, T> {
             level: ChannelLevel::control(rules, mesh, data.channel)?,
             input,
             columns: lanes(width).map(place).collect(),
-            edges: Vec::new(),
+            edges: EdgeNumbers::default(),
         })
     }
 

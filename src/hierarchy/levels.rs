@@ -8,7 +8,7 @@ use crate::base::memory;
 use crate::base::{Context, Error, ErrorKind, Result, Scalar};
 use crate::mesh::Mesh;
 use crate::refine::adjacency::Recycled;
-use crate::refine::{FaceOrigin, Split, VertexOrigin};
+use crate::refine::{EdgeNumbers, FaceOrigin, Split, VertexOrigin};
 use crate::scheme::{RowSink, Scheme, SchemeRows};
 use std::sync::Arc;
 
@@ -50,7 +50,7 @@ impl Hierarchy {
         context.check_memory(plan.topology_bytes())?;
         context.report(0.0)?;
         let mut hierarchy = Self { scheme, levels: vec![mesh] };
-        let mut memory = Vec::new();
+        let mut memory = EdgeNumbers::default();
         for level in 0..levels {
             let scheme = &hierarchy.scheme;
             let parent = hierarchy.mesh(level);
@@ -136,7 +136,7 @@ impl Hierarchy {
         let plan = Prediction::new(self.mesh(0), &self.scheme, level)?;
         context.check_memory(plan.scratch_bytes(width as u64, T::BYTES))?;
         let steps = (lanes(width).count() as u32 * level) as f64;
-        let mut memory = Vec::new();
+        let mut memory = EdgeNumbers::default();
         for (group, (first, n)) in (0_u32..).zip(lanes(width)) {
             let place = Place { attribute: 0, width, first };
             let mut column = Column::new(n);
@@ -212,7 +212,7 @@ impl Hierarchy {
                 format!("stage {stage}: a step has {stages}, counted from 0"),
             ));
         }
-        let mut rows = SchemeRows::<W>::new(&self.scheme, &split)?;
+        let mut rows = SchemeRows::<W>::new(&self.scheme, &split);
         let mut entries = Entries(Vec::new());
         for vertex in 0..split.counts().vertices as u32 {
             entries.0.clear();
@@ -244,10 +244,10 @@ impl Hierarchy {
                 "level 0 is the control mesh, it has no parent",
             )
         })?;
-        self.split(&Context::serial(), before, &mut Vec::new())
+        self.split(&Context::serial(), before, &mut EdgeNumbers::default())
     }
 
-    fn split(&self, context: &Context, level: u32, memory: &mut Vec<u32>) -> Result<Split<'_>> {
+    fn split(&self, context: &Context, level: u32, memory: &mut EdgeNumbers) -> Result<Split<'_>> {
         self.scheme.plan(context, self.mesh(level), memory)
     }
 }

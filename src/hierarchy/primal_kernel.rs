@@ -1,16 +1,13 @@
 //! The inner loops of the primal schemes, for what follows the smooth rules.
 //!
-//! Which corner leads an edge is hard to foresee. So the quads and triangles compute the
-//! new vertex at every corner and keep it where the corner leads: a wasted sum costs less
-//! than a wrong guess. On the boundary, where there is nothing across, the corner stands
-//! for its own twin; the caller writes those edges again.
+//! On the boundary, where there is nothing across, a corner stands for its own twin; the
+//! caller writes those edges again.
 
 use super::kernel::{Value, narrow, widen};
 use crate::base::{NONE, Scalar};
 use crate::mesh::{Mesh, VertexSet, turn_in_quad};
 use crate::refine::{Pieces, PrimalSplit};
 use crate::scheme::{SmoothMasks, VertexMask};
-use std::ops::Range;
 
 /// The new vertices of faces, from a face on: means of their vertices.
 pub(super) fn face_values<T: Scalar, const W: usize>(
@@ -40,15 +37,16 @@ pub(super) fn face_values<T: Scalar, const W: usize>(
 
 /// Smooth new vertices of edges.
 pub(super) struct EdgeKernel<'v, T, const W: usize> {
-    split: &'v PrimalSplit<'v>,
+    mesh: &'v Mesh,
+    pieces: Pieces,
     values: &'v [Value<T, W>],
     faces: &'v [Value<T, W>],
     end: T,
     beside: T,
-    /// Neighbours across matter.
+    /// Nothing but midpoints.
     linear: bool,
-    /// The corners that the kernel is for.
-    bulk: Range<u32>,
+    /// Every edge has the same mask.
+    uniform: bool,
 }
 
 impl<'v, T: Scalar, const W: usize> EdgeKernel<'v, T, W> {
@@ -58,92 +56,89 @@ impl<'v, T: Scalar, const W: usize> EdgeKernel<'v, T, W> {
         values: &'v [Value<T, W>],
         faces: &'v [Value<T, W>],
     ) -> Self {
-        let (parent, mask) = (split.parent(), masks.edge(0));
-        let layout = &parent.layout;
-        // Faces of one size, one mask for all, and no edge with more than two sides.
-        let several = masks.minds_triangles() && layout.irregular_faces() > 0;
-        let bulk = match (split.pieces(), layout.side()) {
-            (Pieces::Quads, 4) | (Pieces::Triangles, 3)
-                if parent.joints.sides.is_empty() && !several =>
-            {
-                layout.irregular_corners()..layout.corners()
-            }
-            _ => 0..0,
-        };
-        let (end, beside) = (T::from_f64(mask.end), T::from_f64(mask.beside));
-        Self { split, values, faces, end, beside, linear: masks.is_linear(), bulk }
+        let (mesh, mask) = (split.parent(), masks.edge(0));
+        let triangles = mesh.layout.side() == 3 || mesh.layout.irregular_faces() > 0;
+        Self {
+            mesh,
+            pieces: split.pieces(),
+            values,
+            faces,
+            end: T::from_f64(mask.end),
+            beside: T::from_f64(mask.beside),
+            linear: masks.is_linear(),
+            uniform: !(masks.minds_triangles() && triangles),
+        }
     }
 
-    /// Writes the edges that a run of corners leads; false if the kernel cannot.
-    pub(super) fn run(&self, corners: Range<u32>, out: &mut [Value<T, W>]) -> bool {
-        if corners.start < self.bulk.start || corners.end > self.bulk.end {
-            return false;
-        }
-        let mut out = Leading { out, place: 0 };
-        match self.split.pieces() {
-            Pieces::Quads => self.quads(corners, &mut out),
-            Pieces::Triangles => self.triangles(corners, &mut out),
+    /// Writes the new vertices on the edges with some first corners; false if the kernel
+    /// cannot.
+    pub(super) fn run(&self, corners: &[u32], out: &mut [Value<T, W>]) -> bool {
+        let layout = &self.mesh.layout;
+        let quads = layout.side() == 4 && layout.irregular_corners() == 0;
+        match self.pieces {
+            _ if !self.uniform => return false,
+            _ if self.linear => self.each(corners, out, |c| self.midpoint(c)),
+            Pieces::Quads if quads => self.each(corners, out, |c| self.among_quads(c)),
+            Pieces::Quads => self.each(corners, out, |c| self.among_faces(c)),
+            Pieces::Triangles => self.each(corners, out, |c| self.among_triangles(c)),
         }
         true
     }
 
     #[inline(always)]
-    fn at(&self, vertex: u32) -> T::Lanes {
-        widen::<T, W>(&self.values[vertex as usize])
+    fn each(&self, corners: &[u32], out: &mut [Value<T, W>], value: impl Fn(u32) -> Value<T, W>) {
+        for (slot, &corner) in out.iter_mut().zip(corners) {
+            *slot = value(corner);
+        }
     }
 
     #[inline(always)]
-    fn mix(&self, ends: T::Lanes, sides: T::Lanes) -> Value<T, W> {
-        narrow::<T, W>(ends * self.end + sides * self.beside)
+    fn at(&self, corner: u32) -> &Value<T, W> {
+        &self.values[self.mesh.vert[corner as usize] as usize]
     }
 
-    fn quads(&self, corners: Range<u32>, out: &mut Leading<Value<T, W>>) {
-        let parent = self.split.parent();
-        let layout = &parent.layout;
-        let (first_quad, first_face) = (layout.irregular_corners(), layout.irregular_faces());
-        let range = corners.start as usize..corners.end as usize;
-        let verts = parent.vert[range.clone()].as_chunks::<4>().0;
-        let twins = parent.twin[range].as_chunks::<4>().0;
-        let faces = &self.faces[first_face as usize..];
-        for ((first, v), twins) in (corners.start..).step_by(4).zip(verts).zip(twins) {
-            let x = v.map(|v| self.at(v));
-            if self.linear {
-                for i in 0..4 {
-                    let ends = x[i] + x[(i + 1) % 4];
-                    out.push(narrow::<T, W>(ends * self.end), first + (i as u32) < twins[i]);
-                }
-                continue;
-            }
-            let own = widen::<T, W>(&faces[((first - first_quad) / 4) as usize]);
-            for i in 0..4 {
-                let corner = first + i as u32;
-                let twin = if twins[i] == NONE { corner } else { twins[i] };
-                let across = match twin.checked_sub(first_quad) {
-                    Some(local) => &faces[(local / 4) as usize],
-                    None => &self.faces[layout.face_of(twin) as usize],
-                };
-                let sides = own + widen::<T, W>(across);
-                out.push(self.mix(x[i] + x[(i + 1) % 4], sides), corner <= twin);
-            }
+    #[inline(always)]
+    fn twin(&self, corner: u32) -> u32 {
+        match self.mesh.twin[corner as usize] {
+            NONE => corner,
+            twin => twin,
         }
     }
 
-    fn triangles(&self, corners: Range<u32>, out: &mut Leading<Value<T, W>>) {
-        let parent = self.split.parent();
-        let range = corners.start as usize..corners.end as usize;
-        let verts = parent.vert[range.clone()].as_chunks::<3>().0;
-        let twins = parent.twin[range].as_chunks::<3>().0;
-        let faces = (corners.start..).step_by(3);
-        for (first, (v, twins)) in faces.zip(verts.iter().zip(twins)) {
-            let x = v.map(|v| self.at(v));
-            for i in 0..3 {
-                let corner = first + i as u32;
-                let twin = if twins[i] == NONE { corner } else { twins[i] };
-                let across = self.at(parent.vert[before_in_triangle(twin) as usize]);
-                let ends = x[i] + x[(i + 1) % 3];
-                out.push(self.mix(ends, x[(i + 2) % 3] + across), corner <= twin);
-            }
-        }
+    #[inline(always)]
+    fn mix(&self, ends: [&Value<T, W>; 2], sides: [&Value<T, W>; 2]) -> Value<T, W> {
+        std::array::from_fn(|lane| {
+            (ends[0][lane] + ends[1][lane]) * self.end
+                + (sides[0][lane] + sides[1][lane]) * self.beside
+        })
+    }
+
+    fn midpoint(&self, corner: u32) -> Value<T, W> {
+        let (a, b) = (self.at(corner), self.at(self.mesh.next(corner)));
+        std::array::from_fn(|lane| (a[lane] + b[lane]) * self.end)
+    }
+
+    /// In a mesh of quads only.
+    #[inline(always)]
+    fn among_quads(&self, corner: u32) -> Value<T, W> {
+        let face = |corner: u32| &self.faces[(corner / 4) as usize];
+        let ends = [self.at(corner), self.at(turn_in_quad(0, corner, 1))];
+        self.mix(ends, [face(corner), face(self.twin(corner))])
+    }
+
+    /// In any mesh.
+    fn among_faces(&self, corner: u32) -> Value<T, W> {
+        let face = |corner: u32| &self.faces[self.mesh.layout.face_of(corner) as usize];
+        let ends = [self.at(corner), self.at(self.mesh.next(corner))];
+        self.mix(ends, [face(corner), face(self.twin(corner))])
+    }
+
+    /// In a mesh of triangles only.
+    #[inline(always)]
+    fn among_triangles(&self, corner: u32) -> Value<T, W> {
+        let opposite = |corner: u32| self.at(before_in_triangle(corner));
+        let ends = [self.at(corner), self.at(after_in_triangle(corner))];
+        self.mix(ends, [opposite(corner), opposite(self.twin(corner))])
     }
 }
 
@@ -155,22 +150,6 @@ fn before_in_triangle(corner: u32) -> u32 {
 #[inline(always)]
 fn after_in_triangle(corner: u32) -> u32 {
     if corner % 3 == 2 { corner - 2 } else { corner + 1 }
-}
-
-/// Values being written one after the other; each stays only if its corner leads.
-struct Leading<'o, V> {
-    out: &'o mut [V],
-    place: usize,
-}
-
-impl<V> Leading<'_, V> {
-    #[inline(always)]
-    fn push(&mut self, value: V, leads: bool) {
-        if let Some(slot) = self.out.get_mut(self.place) {
-            *slot = value;
-            self.place += usize::from(leads);
-        }
-    }
 }
 
 /// Smooth old vertices: a walk around each.

@@ -139,11 +139,10 @@ impl<'a> PrimalStep<'a> {
             (&mut scratch.stage[..], out)
         };
         self.split_values(context, values, from)?;
-        let first_corners = self.split.first_corners()?;
         for pass in 0..self.passes {
             let values = &*from;
             context.fill(to, 1, |start, part| {
-                let mut rows = self.rows().with_first_corners(&first_corners);
+                let mut rows = self.rows();
                 let mut sum = Sum::new(values);
                 for (v, slot) in (start as u32..).zip(part) {
                     *slot = sum.of(|sink| rows.pass_row(pass, v, sink));
@@ -156,7 +155,7 @@ impl<'a> PrimalStep<'a> {
 
     fn rows(&self) -> PrimalRows<'_, f64> {
         let shape = self.channel.as_ref().map_or(self.split, |channel| channel.shape);
-        let rows = PrimalRows::by_element(self.scheme, shape, self.masks.clone());
+        let rows = PrimalRows::with_masks(self.scheme, shape, self.masks.clone());
         rows.with_names(&self.split.parent().vert)
     }
 
@@ -214,21 +213,14 @@ impl<'a> PrimalStep<'a> {
         out: &mut [Value<T, W>],
     ) -> Result<()> {
         let kernel = EdgeKernel::new(self.split, &self.masks, values, faces);
-        let chunks = &self.split.edges.chunks;
-        let mut parts = memory::reserved(chunks.len())?;
-        let mut rest = &mut *out;
-        for chunk in chunks {
-            let (part, later) = rest.split_at_mut(chunk.edges.len());
-            parts.push((chunk.corners.clone(), part));
-            rest = later;
-        }
-        context.for_each(parts, |(corners, part)| {
-            if !kernel.run(corners.clone(), part) {
-                let (rows, mut sum) = (self.rows(), Points::new(values, faces));
-                let first = |&c: &u32| self.split.parent().is_first_of_edge(c);
-                for (slot, c) in part.iter_mut().zip(corners.filter(first)) {
-                    *slot = sum.of(|sink| self.edge_row(c, &rows, sink));
-                }
+        context.fill(out, 1, |start, part| {
+            let corners = &self.split.edges.first[start..start + part.len()];
+            if kernel.run(corners, part) {
+                return;
+            }
+            let (rows, mut sum) = (self.rows(), Points::new(values, faces));
+            for (slot, &c) in part.iter_mut().zip(corners) {
+                *slot = sum.of(|sink| self.edge_row(c, &rows, sink));
             }
         })?;
         let (rows, mut sum) = (self.rows(), Points::new(values, faces));

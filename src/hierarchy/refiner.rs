@@ -13,7 +13,7 @@ use crate::base::memory::{resize, zeroed};
 use crate::base::{Context, Error, ErrorKind, Result, Scalar};
 use crate::mesh::Mesh;
 use crate::refine::adjacency::Recycled;
-use crate::refine::{Counts, Split};
+use crate::refine::{Counts, EdgeNumbers, Split};
 use crate::scheme::Scheme;
 
 /// Values on vertices, any number of them per vertex.
@@ -105,7 +105,7 @@ pub struct Refiner<T> {
     columns: Vec<Column<T>>,
     face_sources: Vec<Vec<u32>>,
     /// Numbers of the edges of the level in work.
-    edges: Vec<u32>,
+    edges: EdgeNumbers,
 }
 
 impl<T: Scalar> Default for Refiner<T> {
@@ -118,15 +118,15 @@ impl<T: Scalar> Refiner<T> {
     /// A refiner without memory yet.
     pub fn new() -> Self {
         let (levels, columns) = (Vec::new(), Vec::new());
-        Self { levels, columns, face_sources: Vec::new(), edges: Vec::new() }
+        Self { levels, columns, face_sources: Vec::new(), edges: EdgeNumbers::default() }
     }
 
     /// Bytes of scratch memory held.
     pub fn bytes(&self) -> u64 {
         let columns: u64 = self.columns.iter().map(Column::bytes).sum();
         let sources: usize = self.face_sources.iter().map(Vec::capacity).sum();
-        let sources = sources + self.edges.capacity();
-        self.levels.iter().map(Recycled::bytes).sum::<u64>() + columns + 4 * sources as u64
+        let sources = self.edges.bytes() + 4 * sources as u64;
+        self.levels.iter().map(Recycled::bytes).sum::<u64>() + columns + sources
     }
 
     /// Refines into arrays of its own.

@@ -5,65 +5,71 @@ use crate::mesh::Mesh;
 use std::ops::Range;
 use std::sync::atomic::{AtomicU32, Ordering};
 
-/// The number of every corner's outgoing edge.
-#[derive(Debug)]
+/// The number of every corner's outgoing edge, and the first corner of every edge.
+#[derive(Debug, Default)]
 pub(crate) struct EdgeNumbers {
     pub(crate) of_corner: Vec<u32>,
-    /// Runs of whole faces, in order, and the edges that their corners lead.
-    pub(crate) chunks: Vec<EdgeChunk>,
-}
-
-/// A run of corners and the edges whose first corners are among them.
-#[derive(Debug, Clone)]
-pub(crate) struct EdgeChunk {
-    pub(crate) corners: Range<u32>,
-    pub(crate) edges: Range<u32>,
+    pub(crate) first: Vec<u32>,
 }
 
 impl EdgeNumbers {
-    /// Numbers the edges in the memory given.
-    pub(crate) fn new(context: &Context, mesh: &Mesh, memory: &mut Vec<u32>) -> Result<Self> {
-        let mut of_corner = std::mem::take(memory);
-        memory::resize(&mut of_corner, mesh.corners())?;
+    /// Numbers the edges, in memory that held other numbers.
+    pub(crate) fn new(context: &Context, mesh: &Mesh, memory: &mut Self) -> Result<Self> {
+        let mut numbers = std::mem::take(memory);
+        memory::resize(&mut numbers.of_corner, mesh.corners())?;
+        memory::resize(&mut numbers.first, mesh.edges())?;
         let runs = runs(context, mesh);
         if context.threads() > 1 && runs.len() > 1 {
-            return in_parallel(context, mesh, of_corner, runs);
+            return in_parallel(context, mesh, numbers, runs);
         }
-        let mut next = 0;
-        let mut chunks = memory::reserved(runs.len())?;
-        for corners in runs {
-            let first = next;
-            if mesh.joints.sides.is_empty() {
-                next = number(&mesh.twin, corners.clone(), first, &mut of_corner);
-            } else {
-                for c in corners.clone() {
-                    let leader = mesh.first_of_edge(c);
-                    of_corner[c as usize] =
-                        if leader == c { next } else { of_corner[leader as usize] };
-                    next += u32::from(leader == c);
-                }
-            }
-            chunks.push(EdgeChunk { corners, edges: first..next });
+        if mesh.joints.sides.is_empty() {
+            number(&mesh.twin, &mut numbers);
+        } else {
+            number_joined(mesh, &mut numbers);
         }
-        Ok(Self { of_corner, chunks })
+        Ok(numbers)
     }
 
     /// The number of edges.
     pub(crate) fn count(&self) -> u32 {
-        self.chunks.last().map_or(0, |chunk| chunk.edges.end)
+        self.first.len() as u32
+    }
+
+    /// Bytes held.
+    pub(crate) fn bytes(&self) -> u64 {
+        4 * (self.of_corner.capacity() + self.first.capacity()) as u64
     }
 }
 
-/// Numbers the edges of a run of corners. Which corner is the first is hard to foresee,
-/// so there is no branch: a guess is stored and read back from the first corner.
-fn number(twin: &[u32], corners: Range<u32>, mut next: u32, of_corner: &mut [u32]) -> u32 {
-    for c in corners {
-        let first = c.min(twin[c as usize]);
+/// Which corner is the first is hard to foresee, so there is no branch: a guess is
+/// stored and read back from the first corner.
+fn number(twin: &[u32], numbers: &mut EdgeNumbers) {
+    let EdgeNumbers { of_corner, first } = numbers;
+    let mut next = 0;
+    for (c, &twin) in (0..).zip(twin) {
+        let leader = c.min(twin);
         of_corner[c as usize] = next;
-        of_corner[c as usize] = of_corner[first as usize];
-        next += u32::from(first == c);
+        of_corner[c as usize] = of_corner[leader as usize];
+        // Past the last edge the guess is wrong and has no place.
+        if let Some(slot) = first.get_mut(next as usize) {
+            *slot = c;
+        }
+        next += u32::from(leader == c);
     }
-    next
+}
+
+fn number_joined(mesh: &Mesh, numbers: &mut EdgeNumbers) {
+    let mut next = 0;
+    for c in 0..mesh.layout.corners() {
+        let leader = mesh.first_of_edge(c);
+        if leader == c {
+            numbers.of_corner[c as usize] = next;
+            numbers.first[next as usize] = c;
+            next += 1;
+        } else {
+            numbers.of_corner[c as usize] = numbers.of_corner[leader as usize];
+        }
+    }
 }
 
 /// Whole faces: irregular ones together, the others as the context cuts them.
@@ -81,24 +87,23 @@ fn runs(context: &Context, mesh: &Mesh) -> Vec<Range<u32>> {
 fn in_parallel(
     context: &Context,
     mesh: &Mesh,
-    memory: Vec<u32>,
+    numbers: EdgeNumbers,
     runs: Vec<Range<u32>>,
 ) -> Result<EdgeNumbers> {
-    let counts = context
-        .map(runs.clone(), |run| run.filter(|&c| mesh.is_first_of_edge(c)).count() as u32)?;
-    let mut next = 0;
-    let chunks: Vec<_> = runs
-        .into_iter()
-        .zip(counts)
-        .map(|(corners, n)| {
-            next += n;
-            EdgeChunk { corners, edges: next - n..next }
-        })
-        .collect();
-    let of_corner: Vec<AtomicU32> = memory.into_iter().map(AtomicU32::new).collect();
-    context.for_each(chunks.clone(), |chunk| {
-        let leaders = chunk.corners.filter(|&c| mesh.is_first_of_edge(c));
-        for (edge, c) in chunk.edges.zip(leaders) {
+    let leaders = |run: Range<u32>| run.filter(|&c| mesh.is_first_of_edge(c));
+    let counts = context.map(runs.clone(), |run| leaders(run).count())?;
+    let EdgeNumbers { of_corner, mut first } = numbers;
+    let of_corner: Vec<AtomicU32> = of_corner.into_iter().map(AtomicU32::new).collect();
+    let mut parts = memory::reserved(runs.len())?;
+    let (mut rest, mut next) = (&mut first[..], 0);
+    for (run, count) in runs.into_iter().zip(counts) {
+        let (part, later) = rest.split_at_mut(count);
+        parts.push((run, next, part));
+        (rest, next) = (later, next + count as u32);
+    }
+    context.for_each(parts, |(run, next, first)| {
+        for ((edge, slot), c) in (next..).zip(first).zip(leaders(run)) {
+            *slot = c;
             of_corner[c as usize].store(edge, Ordering::Relaxed);
             let twin = mesh.twin[c as usize];
             if twin != NONE {
@@ -110,5 +115,5 @@ fn in_parallel(
     for &(c, leader) in &mesh.joints.sides {
         of_corner[c as usize] = of_corner[leader as usize];
     }
-    Ok(EdgeNumbers { of_corner, chunks })
+    Ok(EdgeNumbers { of_corner, first })
 }

@@ -20,6 +20,7 @@ pub(crate) use corner_split::{Child, CornerSplit};
 pub use counts::Counts;
 pub use creasing::Creasing;
 pub(crate) use creasing::{Around, decrement};
+pub(crate) use edges::EdgeNumbers;
 pub use lineage::{FaceOrigin, VertexOrigin};
 pub(crate) use neighbourhood::{BoundaryNeighbours, Cycle, Neighbourhood, Side};
 pub(crate) use primal_split::{Pieces, PrimalChild, PrimalSplit};

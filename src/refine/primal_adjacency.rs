@@ -84,8 +84,10 @@ impl PrimalSplit<'_> {
         context.fill(out, 16, |face, part| {
             let faces = (4 * face as u32..).step_by(4).zip(&parents[face..]);
             for ((c, twins), out) in faces.zip(part.as_chunks_mut::<16>().0) {
-                let near = twins.map(|t| or_none(t, 4 * turn_in_quad(0, t, 1) + 3));
-                let far = twins.map(|t| or_none(t, 4 * t));
+                // Without a twin the product is thrown away: it may wrap.
+                let fours = |corner: u32| corner.wrapping_mul(4);
+                let near = twins.map(|t| or_none(t, fours(turn_in_quad(0, t, 1)) | 3));
+                let far = twins.map(|t| or_none(t, fours(t)));
                 for i in 0..4 {
                     let (next, before) = ((i + 1) % 4, (i + 3) % 4);
                     out[4 * i] = near[i];
@@ -108,16 +110,8 @@ impl PrimalSplit<'_> {
                 *slot = if corner == NONE { NONE } else { self.start_half(corner) };
             }
         })?;
-        let mut parts = memory::reserved(self.edges.chunks.len())?;
-        let mut rest = edges;
-        for chunk in &self.edges.chunks {
-            let (part, later) = rest.split_at_mut(chunk.edges.len());
-            parts.push((chunk.corners.clone(), part));
-            rest = later;
-        }
-        context.for_each(parts, |(corners, part)| {
-            let leaders = corners.filter(|&c| parent.is_first_of_edge(c));
-            for (slot, c) in part.iter_mut().zip(leaders) {
+        context.fill(edges, 1, |start, part| {
+            for (slot, &c) in part.iter_mut().zip(&self.edges.first[start..]) {
                 *slot = self.end_half(c);
             }
         })?;

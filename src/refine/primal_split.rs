@@ -17,7 +17,7 @@
 
 use super::counts::Counts;
 use super::edges::EdgeNumbers;
-use crate::base::{Context, Error, ErrorKind, NONE, Result, memory};
+use crate::base::{Context, Error, ErrorKind, NONE, Result};
 use crate::mesh::Mesh;
 
 /// What the faces become.
@@ -86,7 +86,7 @@ impl<'a> PrimalSplit<'a> {
         context: &Context,
         parent: &'a Mesh,
         pieces: Pieces,
-        memory: &mut Vec<u32>,
+        memory: &mut EdgeNumbers,
     ) -> Result<Self> {
         let counts = Self::split_counts(&Counts::of(parent), pieces)
             .ok_or_else(|| Error::new(ErrorKind::TooLarge, "the split exceeds 64-bit sizes"))?;
@@ -112,8 +112,8 @@ impl<'a> PrimalSplit<'a> {
     }
 
     /// Gives the memory of the edge numbers back.
-    pub(crate) fn recycle(self) -> Vec<u32> {
-        self.edges.of_corner
+    pub(crate) fn recycle(self) -> EdgeNumbers {
+        self.edges
     }
 
     /// The child vertex on the outgoing edge of a corner.
@@ -149,12 +149,6 @@ impl<'a> PrimalSplit<'a> {
         } else {
             PrimalChild::Vertex(vertex)
         }
-    }
-
-    /// The first corner of every edge.
-    pub(crate) fn first_corners(&self) -> Result<Vec<u32>> {
-        let all = 0..self.parent.layout.corners();
-        memory::collect(all.filter(|&c| self.parent.is_first_of_edge(c)))
     }
 
     /// Writes the size of every child face.

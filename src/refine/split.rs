@@ -4,6 +4,7 @@ use super::adjacency::Recycled;
 use super::corner_split::CornerSplit;
 use super::counts::Counts;
 use super::creasing::Creasing;
+use super::edges::EdgeNumbers;
 use super::lineage::{FaceOrigin, VertexOrigin};
 use super::primal_split::PrimalSplit;
 use crate::base::{Context, Result, memory};
@@ -102,7 +103,7 @@ impl<'a> Split<'a> {
     }
 
     /// Gives memory back that the next call may use.
-    pub(crate) fn recycle(self, memory: &mut Vec<u32>) {
+    pub(crate) fn recycle(self, memory: &mut EdgeNumbers) {
         if let Self::Primal(split) = self {
             *memory = split.recycle();
         }

@@ -4,7 +4,7 @@ use super::CornerRule;
 use super::scheme_options::{Boundary, LoopWeights, TriangleRule};
 use crate::base::{Context, Element, Error, ErrorKind, Fraction, Result, memory};
 use crate::mesh::Mesh;
-use crate::refine::{Carried, CornerSplit, Creasing, Pieces, PrimalSplit, Split};
+use crate::refine::{Carried, CornerSplit, Creasing, EdgeNumbers, Pieces, PrimalSplit, Split};
 
 /// How a scheme splits faces.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
@@ -222,7 +222,7 @@ impl Scheme {
         &self,
         context: &Context,
         mesh: &'a Mesh,
-        memory: &mut Vec<u32>,
+        memory: &mut EdgeNumbers,
     ) -> Result<Split<'a>> {
         self.check(mesh)?;
         Ok(match self.method {

@@ -26,7 +26,7 @@ impl<W: Weight> PrimalRows<'_, W> {
                 }
             }
             PrimalChild::Edge(edge) => {
-                let corner = self.first_corners[edge as usize];
+                let corner = self.split.edges.first[edge as usize];
                 match parent.twin[corner as usize] {
                     NONE => {
                         let ends = [corner, parent.next(corner)].map(|c| parent.vert[c as usize]);

@@ -5,11 +5,10 @@
 
 use super::crease_rules::{Rule, Surroundings};
 use super::{Boundary, Method, RowSink, Scheme, SmoothMasks};
-use crate::base::{NONE, Result, Weight};
+use crate::base::{NONE, Weight};
 use crate::mesh::Mesh;
 use crate::mesh::sharpness::INFINITE;
 use crate::refine::{Pieces, PrimalChild, PrimalSplit};
-use std::borrow::Cow;
 
 /// Receives a row on old vertices and on the new vertices of faces.
 pub(crate) trait PointSink<W> {
@@ -30,38 +29,28 @@ pub(crate) struct PrimalRows<'a, W> {
     around: Surroundings,
     /// What stands at each corner: its vertex, or its value in a face-varying channel.
     pub(super) names: &'a [u32],
-    /// The first corner of every edge, where rows of edges are asked for by number.
-    pub(super) first_corners: Cow<'a, [u32]>,
 }
 
 impl<'a, W: Weight> PrimalRows<'a, W> {
-    /// Rows by the number of the child vertex.
-    pub(crate) fn new(scheme: &'a Scheme, split: &'a PrimalSplit<'a>) -> Result<Self> {
-        let masks = SmoothMasks::new(scheme);
-        let first_corners = Cow::Owned(split.first_corners()?);
-        Ok(Self { first_corners, ..Self::by_element(scheme, split, masks) })
+    /// The scheme's rows.
+    pub(crate) fn new(scheme: &'a Scheme, split: &'a PrimalSplit<'a>) -> Self {
+        Self::with_masks(scheme, split, SmoothMasks::new(scheme))
     }
 
-    /// Rows by element only, which needs no list of edges.
-    pub(crate) fn by_element(
+    /// Rows with other smooth rules than the scheme's own.
+    pub(crate) fn with_masks(
         scheme: &'a Scheme,
         split: &'a PrimalSplit<'a>,
         masks: SmoothMasks<W>,
     ) -> Self {
         let around = Surroundings::default();
         let names = &split.parent().vert[..];
-        Self { split, scheme, masks, around, names, first_corners: Cow::Borrowed(&[]) }
+        Self { split, scheme, masks, around, names }
     }
 
     /// The same rows on the values at the corners, where these match the vertices.
     pub(crate) fn with_names(mut self, names: &'a [u32]) -> Self {
         self.names = names;
-        self
-    }
-
-    /// The same, with the list of edges.
-    pub(crate) fn with_first_corners(mut self, first_corners: &'a [u32]) -> Self {
-        self.first_corners = Cow::Borrowed(first_corners);
         self
     }
 
@@ -72,7 +61,7 @@ impl<'a, W: Weight> PrimalRows<'a, W> {
         match self.split.child(vertex) {
             PrimalChild::Vertex(v) => self.vertex_row(v, &mut expanded),
             PrimalChild::Edge(edge) => {
-                self.edge_row(self.first_corners[edge as usize], &mut expanded);
+                self.edge_row(self.split.edges.first[edge as usize], &mut expanded);
             }
             PrimalChild::Face(face) => expanded.face(face, W::ratio(1, 1)),
         }

@@ -1,7 +1,7 @@
 //! The rows of any step, for consumers who take them one by one.
 
 use super::{DualRows, PrimalRows, Scheme};
-use crate::base::{Result, Weight};
+use crate::base::Weight;
 use crate::refine::Split;
 
 /// Receives the row of one new vertex, entry by entry.
@@ -28,11 +28,11 @@ pub(crate) enum SchemeRows<'a, W> {
 }
 
 impl<'a, W: Weight> SchemeRows<'a, W> {
-    pub(crate) fn new(scheme: &'a Scheme, split: &'a Split<'a>) -> Result<Self> {
-        Ok(match split {
+    pub(crate) fn new(scheme: &'a Scheme, split: &'a Split<'a>) -> Self {
+        match split {
             Split::Corner(split) => Self::Dual(DualRows::new(scheme, split)),
-            Split::Primal(split) => Self::Primal(PrimalRows::new(scheme, split)?),
-        })
+            Split::Primal(split) => Self::Primal(PrimalRows::new(scheme, split)),
+        }
     }
 
     /// The row of a child vertex after the split, on the parent's vertices.

@@ -29,6 +29,10 @@ pub fn all() -> Vec<Named> {
             Scheme::dual(&[fraction(0, 1), fraction(7, 2)]).expect("passes"),
             takes_all,
         ),
+        named("Catmull-Clark", Scheme::catmull_clark(), takes_all),
+        named("Loop", Scheme::loop_triangles(), |case| !case.is_triangles()),
+        named("bilinear", Scheme::bilinear(), takes_all),
+        named("cubic by averaging", Scheme::primal(&[fraction(0, 1)]).expect("passes"), takes_all),
     ]
 }
 

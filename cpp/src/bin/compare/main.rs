@@ -1,0 +1,35 @@
+//! `make compare`: carvel and its peers on the same meshes, in one table.
+//!
+//! One process per memory regime: a regime is a state of the whole process, and some of
+//! it must be set before the process begins. Within one, carvel and the peer take turns,
+//! so that whatever disturbs the machine disturbs both.
+
+mod args;
+mod cases;
+mod measure;
+mod memory;
+mod regime;
+mod row;
+mod sides;
+mod table;
+
+use args::Args;
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    let args = match Args::read() {
+        Ok(args) => args,
+        Err(code) => return code,
+    };
+    let done = match args.child {
+        Some(regime) => regime::run_here(regime, &args),
+        None => regime::run_all(&args),
+    };
+    match done {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(reason) => {
+            eprintln!("compare: {reason}");
+            ExitCode::FAILURE
+        }
+    }
+}
