@@ -248,14 +248,17 @@ impl Run<'_> {
     }
 
     fn summary(&self, job: &Job, done: &Done) -> String {
-        let faces = |level: Option<&Level>| counted(level.map_or(0, |l| l.faces), "face");
+        let faces = |level: Option<&Level>, holes| {
+            counted(level.map_or(0, |level| level.faces - holes), "face")
+        };
         let input = crate::text::path_name(&job.input);
         let seconds = done.seconds.total.as_secs_f64();
         if self.args.levels == 0 {
-            let (faces, format) = (faces(done.levels.first()), job.format);
+            let (faces, format) = (faces(done.levels.first(), 0), job.format);
             return format!("{input}: {faces} converted to {format} in {seconds:.2} s");
         }
-        let (before, after) = (faces(done.levels.first()), faces(done.levels.last()));
+        let (before, after) =
+            (faces(done.levels.first(), 0), faces(done.levels.last(), done.holes));
         let levels = counted(u64::from(self.args.levels), "level");
         let scheme = &self.chosen.name;
         format!("{input}: {before} -> {after} ({levels}, {scheme}) in {seconds:.2} s")
