@@ -162,7 +162,7 @@ impl Scheme {
     pub fn check(&self, mesh: &Mesh) -> Result<()> {
         let unsupported = |message: String| Err(Error::new(ErrorKind::Unsupported, message));
         if self.method == Method::Loop {
-            return self.check_triangles(mesh);
+            return check_triangles(mesh);
         }
         let averages = self.method == Method::Dual || !self.passes.is_empty();
         if averages && !mesh.is_manifold() {
@@ -177,20 +177,6 @@ impl Scheme {
             );
         }
         Ok(())
-    }
-
-    /// Refuses other faces than triangles, naming the caller's first.
-    fn check_triangles(&self, mesh: &Mesh) -> Result<()> {
-        if mesh.layout.side() == 3 && mesh.irregular_faces() == 0 {
-            return Ok(());
-        }
-        let others = (0..mesh.faces()).filter(|&f| mesh.face_corners(f).len() != 3);
-        let first = others.map(|f| (mesh.face_source(f), mesh.face_corners(f).len())).min();
-        first.map_or(Ok(()), |(face, size)| {
-            let message = format!("Loop refines triangles only, face {face} has {size} sides");
-            let element = Element::Face(face as u64);
-            Err(Error::new(ErrorKind::Unsupported, message).with_elements([element]))
-        })
     }
 
     /// The faces, ascending in the mesh's order, that are holes: those tagged and, for
@@ -243,4 +229,18 @@ impl Scheme {
         const BEYOND_CREASE: f64 = 2.0;
         if self.creases() { BEYOND_CREASE } else { self.averaging_growth() }
     }
+}
+
+/// Refuses other faces than triangles, naming the caller's first.
+fn check_triangles(mesh: &Mesh) -> Result<()> {
+    if mesh.layout.side() == 3 && mesh.irregular_faces() == 0 {
+        return Ok(());
+    }
+    let others = (0..mesh.faces()).filter(|&f| mesh.face_corners(f).len() != 3);
+    let first = others.map(|f| (mesh.face_source(f), mesh.face_corners(f).len())).min();
+    first.map_or(Ok(()), |(face, size)| {
+        let message = format!("Loop refines triangles only, face {face} has {size} sides");
+        let element = Element::Face(face as u64);
+        Err(Error::new(ErrorKind::Unsupported, message).with_elements([element]))
+    })
 }
