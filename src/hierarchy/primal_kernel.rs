@@ -5,7 +5,7 @@
 
 use super::kernel::{Value, narrow, widen};
 use crate::base::{NONE, Scalar};
-use crate::mesh::{Mesh, VertexSet, turn_in_quad};
+use crate::mesh::{Mesh, VertexSet, next_in_triangle, prev_in_triangle, turn_in_quad};
 use crate::refine::{Pieces, PrimalSplit};
 use crate::scheme::{SmoothMasks, VertexMask};
 
@@ -77,19 +77,12 @@ impl<'v, T: Scalar, const W: usize> EdgeKernel<'v, T, W> {
         let quads = layout.side() == 4 && layout.irregular_corners() == 0;
         match self.pieces {
             _ if !self.uniform => return false,
-            _ if self.linear => self.each(corners, out, |c| self.midpoint(c)),
-            Pieces::Quads if quads => self.each(corners, out, |c| self.among_quads(c)),
-            Pieces::Quads => self.each(corners, out, |c| self.among_faces(c)),
-            Pieces::Triangles => self.each(corners, out, |c| self.among_triangles(c)),
+            _ if self.linear => each(corners, out, |c| self.midpoint(c)),
+            Pieces::Quads if quads => each(corners, out, |c| self.among_quads(c)),
+            Pieces::Quads => each(corners, out, |c| self.among_faces(c)),
+            Pieces::Triangles => each(corners, out, |c| self.among_triangles(c)),
         }
         true
-    }
-
-    #[inline(always)]
-    fn each(&self, corners: &[u32], out: &mut [Value<T, W>], value: impl Fn(u32) -> Value<T, W>) {
-        for (slot, &corner) in out.iter_mut().zip(corners) {
-            *slot = value(corner);
-        }
     }
 
     #[inline(always)]
@@ -136,34 +129,32 @@ impl<'v, T: Scalar, const W: usize> EdgeKernel<'v, T, W> {
     /// In a mesh of triangles only.
     #[inline(always)]
     fn among_triangles(&self, corner: u32) -> Value<T, W> {
-        let opposite = |corner: u32| self.at(before_in_triangle(corner));
-        let ends = [self.at(corner), self.at(after_in_triangle(corner))];
+        let opposite = |corner: u32| self.at(prev_in_triangle(corner));
+        let ends = [self.at(corner), self.at(next_in_triangle(corner))];
         self.mix(ends, [opposite(corner), opposite(self.twin(corner))])
     }
 }
 
 #[inline(always)]
-fn before_in_triangle(corner: u32) -> u32 {
-    if corner.is_multiple_of(3) { corner + 2 } else { corner - 1 }
+fn each<V>(corners: &[u32], out: &mut [V], value: impl Fn(u32) -> V) {
+    for (slot, &corner) in out.iter_mut().zip(corners) {
+        *slot = value(corner);
+    }
 }
 
-#[inline(always)]
-fn after_in_triangle(corner: u32) -> u32 {
-    if corner % 3 == 2 { corner - 2 } else { corner + 1 }
-}
-
-/// Smooth old vertices: a walk around each.
+/// Smooth old vertices.
 ///
-/// Sums are taken lane by lane: values of three lanes would have to be put together
-/// before every addition.
+/// Around a regular vertex all corners are found in two directions at once, so that few
+/// loads wait for each other; around others one goes from corner to corner. Sums are taken
+/// lane by lane: values of three lanes would have to be put together before every addition.
 pub(super) struct VertexKernel<'v, T, const W: usize> {
     mesh: &'v Mesh,
     pieces: Pieces,
     values: &'v [Value<T, W>],
     faces: &'v [Value<T, W>],
     masks: SmoothMasks<f64>,
-    /// The mask of the regular valence.
-    regular: (usize, [T; 3]),
+    /// The weights of the regular valence.
+    regular: [T; 3],
 }
 
 impl<'v, T: Scalar, const W: usize> VertexKernel<'v, T, W> {
@@ -174,22 +165,21 @@ impl<'v, T: Scalar, const W: usize> VertexKernel<'v, T, W> {
         faces: &'v [Value<T, W>],
     ) -> Self {
         let (mut masks, pieces) = (masks.clone(), split.pieces());
-        let valence = match pieces {
+        let regular = weights(&masks.vertex(match pieces {
             Pieces::Quads => 4,
             Pieces::Triangles => 6,
-        };
-        let regular = (valence, weights(&masks.vertex(valence)));
+        }));
         Self { mesh: split.parent(), pieces, values, faces, masks, regular }
     }
 
     /// Writes the old vertices from one on, but for those of a set.
     pub(super) fn run(&mut self, first: u32, out: &mut [Value<T, W>], except: &VertexSet) {
-        match (self.pieces, self.mesh.layout.irregular_corners()) {
-            (Pieces::Quads, 0) if self.mesh.layout.side() == 4 => {
-                self.each(first, out, except, Self::among_quads);
-            }
-            (Pieces::Quads, _) => self.each(first, out, except, Self::among_faces),
-            (Pieces::Triangles, _) => self.each(first, out, except, Self::among_triangles),
+        let layout = &self.mesh.layout;
+        let quads = layout.side() == 4 && layout.irregular_corners() == 0;
+        match self.pieces {
+            Pieces::Quads if quads => self.each(first, out, except, Self::in_quads),
+            Pieces::Quads => self.each(first, out, except, |_, _, _| None),
+            Pieces::Triangles => self.each(first, out, except, Self::in_triangles),
         }
     }
 
@@ -199,7 +189,7 @@ impl<'v, T: Scalar, const W: usize> VertexKernel<'v, T, W> {
         first: u32,
         out: &mut [Value<T, W>],
         except: &VertexSet,
-        around: impl Fn(&Self, u32) -> Ring<T, W>,
+        regular: impl Fn(&Self, u32, u32) -> Option<Ring<T, W>>,
     ) {
         let starts = &self.mesh.start[first as usize..];
         let values = &self.values[first as usize..];
@@ -207,62 +197,75 @@ impl<'v, T: Scalar, const W: usize> VertexKernel<'v, T, W> {
             if except.contains(v) {
                 continue;
             }
-            *slot = *own;
-            if start != NONE {
-                let ring = around(self, start);
-                let (valence, regular) = &self.regular;
-                let [w, u, f] = if ring.valence == *valence {
-                    *regular
-                } else {
-                    weights(&self.masks.vertex(ring.valence))
-                };
-                for lane in 0..W {
-                    slot[lane] = own[lane] * w + ring.near[lane] * u + ring.faces[lane] * f;
-                }
+            if start == NONE {
+                *slot = *own;
+                continue;
             }
+            *slot = match regular(self, v, start) {
+                Some(ring) => ring.mix(own, self.regular),
+                None => self.any(own, start),
+            };
         }
     }
 
-    /// In a mesh of quads only.
-    #[inline(always)]
-    fn among_quads(&self, start: u32) -> Ring<T, W> {
-        let (vert, twin) = (&self.mesh.vert[..], &self.mesh.twin[..]);
+    /// A vertex of any valence in any mesh.
+    #[cold]
+    #[inline(never)]
+    fn any(&mut self, own: &Value<T, W>, start: u32) -> Value<T, W> {
         let mut ring = Ring::default();
-        let mut corner = start;
-        loop {
-            ring.add_near(&self.values[vert[turn_in_quad(0, corner, 1) as usize] as usize]);
-            ring.add_face(&self.faces[(corner / 4) as usize]);
-            corner = twin[turn_in_quad(0, corner, 3) as usize];
-            if corner == start {
-                return ring;
-            }
-        }
-    }
-
-    /// In any mesh.
-    fn among_faces(&self, start: u32) -> Ring<T, W> {
-        let mut ring = Ring::default();
+        let mut valence = 0;
         for corner in self.mesh.fan_from(start) {
-            let near = self.mesh.vert[self.mesh.next(corner) as usize];
-            ring.add_near(&self.values[near as usize]);
-            ring.add_face(&self.faces[self.mesh.layout.face_of(corner) as usize]);
+            ring.add_near(self.at(self.mesh.next(corner)));
+            if self.pieces == Pieces::Quads {
+                ring.add_face(&self.faces[self.mesh.layout.face_of(corner) as usize]);
+            }
+            valence += 1;
         }
-        ring
+        ring.mix(own, weights(&self.masks.vertex(valence)))
     }
 
-    /// In a mesh of triangles only; faces have no weight.
     #[inline(always)]
-    fn among_triangles(&self, start: u32) -> Ring<T, W> {
-        let (vert, twin) = (&self.mesh.vert[..], &self.mesh.twin[..]);
-        let mut ring = Ring::default();
-        let mut corner = start;
-        loop {
-            ring.add_near(&self.values[vert[after_in_triangle(corner) as usize] as usize]);
-            corner = twin[before_in_triangle(corner) as usize];
-            if corner == start {
-                return ring;
-            }
+    fn at(&self, corner: u32) -> &'v Value<T, W> {
+        &self.values[self.mesh.vert[corner as usize] as usize]
+    }
+
+    /// A vertex of valence 4 in a mesh of quads only.
+    #[inline(always)]
+    fn in_quads(&self, vertex: u32, start: u32) -> Option<Ring<T, W>> {
+        if self.mesh.special_set.contains(vertex) {
+            return None;
         }
+        let twin = |corner: u32| self.mesh.twin[corner as usize];
+        let turn = |corner: u32, by| turn_in_quad(0, corner, by);
+        let clockwise = turn(twin(start), 1);
+        let around = twin(turn(start, 3));
+        let across = twin(turn(around, 3));
+        let mut ring = Ring::default();
+        for corner in [start, around, across, clockwise] {
+            ring.add_near(self.at(turn(corner, 1)));
+            ring.add_face(&self.faces[(corner / 4) as usize]);
+        }
+        Some(ring)
+    }
+
+    /// A vertex of valence 6 in a mesh of triangles only; faces have no weight.
+    #[inline(always)]
+    fn in_triangles(&self, _: u32, start: u32) -> Option<Ring<T, W>> {
+        let twin = |corner: u32| self.mesh.twin[corner as usize];
+        let ccw = |corner: u32| twin(prev_in_triangle(corner));
+        let cw = |corner: u32| next_in_triangle(twin(corner));
+        let (left, right) = (ccw(start), cw(start));
+        let (far_left, far_right) = (ccw(left), cw(right));
+        let across = ccw(far_left);
+        // Closed after six corners, and not after three or two, twice or thrice.
+        if ccw(across) != far_right || far_left == start || across == start {
+            return None;
+        }
+        let mut ring = Ring::default();
+        for corner in [start, left, far_left, across, far_right, right] {
+            ring.add_near(self.at(next_in_triangle(corner)));
+        }
+        Some(ring)
     }
 }
 
@@ -274,19 +277,17 @@ fn weights<T: Scalar>(mask: &VertexMask<f64>) -> [T; 3] {
 struct Ring<T, const W: usize> {
     near: Value<T, W>,
     faces: Value<T, W>,
-    valence: usize,
 }
 
 impl<T: Scalar, const W: usize> Default for Ring<T, W> {
     fn default() -> Self {
-        Self { near: [T::default(); W], faces: [T::default(); W], valence: 0 }
+        Self { near: [T::default(); W], faces: [T::default(); W] }
     }
 }
 
 impl<T: Scalar, const W: usize> Ring<T, W> {
     #[inline(always)]
     fn add_near(&mut self, value: &Value<T, W>) {
-        self.valence += 1;
         for (sum, &x) in self.near.iter_mut().zip(value) {
             *sum = *sum + x;
         }
@@ -297,5 +298,10 @@ impl<T: Scalar, const W: usize> Ring<T, W> {
         for (sum, &x) in self.faces.iter_mut().zip(value) {
             *sum = *sum + x;
         }
+    }
+
+    #[inline(always)]
+    fn mix(&self, own: &Value<T, W>, [w, u, f]: [T; 3]) -> Value<T, W> {
+        std::array::from_fn(|lane| own[lane] * w + self.near[lane] * u + self.faces[lane] * f)
     }
 }

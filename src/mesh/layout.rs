@@ -30,6 +30,18 @@ pub(crate) fn turn_in_quad(first: u32, corner: u32, by: u32) -> u32 {
     first.wrapping_add((local & !3) | (local.wrapping_add(by) & 3))
 }
 
+/// The next corner in a mesh of triangles only.
+#[inline(always)]
+pub(crate) fn next_in_triangle(corner: u32) -> u32 {
+    if corner % 3 == 2 { corner - 2 } else { corner + 1 }
+}
+
+/// The previous corner in a mesh of triangles only.
+#[inline(always)]
+pub(crate) fn prev_in_triangle(corner: u32) -> u32 {
+    if corner.is_multiple_of(3) { corner + 2 } else { corner - 1 }
+}
+
 impl Layout {
     /// A layout from the sizes of the irregular faces and a number of regular
     /// ones. The caller has checked that the corners fit the index type.
@@ -123,6 +135,9 @@ impl Layout {
     #[cold]
     #[inline(never)]
     fn next_irregular(&self, corner: u32) -> u32 {
+        if self.face_of.is_empty() {
+            return next_in_triangle(corner);
+        }
         let face = self.face(self.face_of(corner));
         if corner + 1 == face.end { face.start } else { corner + 1 }
     }
@@ -130,6 +145,9 @@ impl Layout {
     #[cold]
     #[inline(never)]
     fn prev_irregular(&self, corner: u32) -> u32 {
+        if self.face_of.is_empty() {
+            return prev_in_triangle(corner);
+        }
         let face = self.face(self.face_of(corner));
         if corner == face.start { face.end - 1 } else { corner - 1 }
     }

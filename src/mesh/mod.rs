@@ -41,7 +41,7 @@ pub use channel::{Channel, FaceVaryingMode};
 pub(crate) use defect::summary;
 pub use defect::{Defect, Defects};
 pub(crate) use joints::Joints;
-pub(crate) use layout::{Layout, turn_in_quad};
+pub(crate) use layout::{Layout, next_in_triangle, prev_in_triangle, turn_in_quad};
 pub(crate) use near::Near;
 pub(crate) use ring::{QuadWalker, VertexSet};
 pub(crate) use sharpness::Sharpness;

@@ -37,9 +37,9 @@ pub struct Counts {
 }
 
 impl Counts {
-    /// The counts of a mesh.
-    pub fn of(mesh: &Mesh) -> Self {
-        let mut counts = Self {
+    /// The sizes of a mesh without what only corner splits ask for.
+    pub(crate) fn sizes_of(mesh: &Mesh) -> Self {
+        Self {
             vertices: mesh.vertices() as u64,
             faces: mesh.faces() as u64,
             corners: mesh.corners() as u64,
@@ -54,7 +54,12 @@ impl Counts {
             other_vertices: 0,
             other_corners: 0,
             triangles: mesh.layout.side() == 3,
-        };
+        }
+    }
+
+    /// The counts of a mesh.
+    pub fn of(mesh: &Mesh) -> Self {
+        let mut counts = Self::sizes_of(mesh);
         for &v in &mesh.special {
             let valence = mesh.fan(v).count() as u64;
             match valence {

@@ -41,15 +41,15 @@ impl EdgeNumbers {
     }
 }
 
-/// Which corner is the first is hard to foresee, so there is no branch: a guess is
-/// stored and read back from the first corner.
+/// Which corner is the first is hard to foresee, so there is no branch: both numbers are
+/// at hand and one is chosen.
 fn number(twin: &[u32], numbers: &mut EdgeNumbers) {
     let EdgeNumbers { of_corner, first } = numbers;
     let mut next = 0;
     for (c, &twin) in (0..).zip(twin) {
         let leader = c.min(twin);
-        of_corner[c as usize] = next;
-        of_corner[c as usize] = of_corner[leader as usize];
+        let seen = of_corner[leader as usize];
+        of_corner[c as usize] = if leader == c { next } else { seen };
         // Past the last edge the guess is wrong and has no place.
         if let Some(slot) = first.get_mut(next as usize) {
             *slot = c;

@@ -88,7 +88,7 @@ impl<'a> PrimalSplit<'a> {
         pieces: Pieces,
         memory: &mut EdgeNumbers,
     ) -> Result<Self> {
-        let counts = Self::split_counts(&Counts::of(parent), pieces)
+        let counts = Self::split_counts(&Counts::sizes_of(parent), pieces)
             .ok_or_else(|| Error::new(ErrorKind::TooLarge, "the split exceeds 64-bit sizes"))?;
         counts.check_index_type()?;
         let edges = EdgeNumbers::new(context, parent, memory)?;

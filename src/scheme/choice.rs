@@ -231,14 +231,15 @@ impl Scheme {
     }
 }
 
-/// Refuses other faces than triangles, naming the caller's first.
+/// Names the first face, in the caller's order, that is no triangle.
 fn check_triangles(mesh: &Mesh) -> Result<()> {
-    if mesh.layout.side() == 3 && mesh.irregular_faces() == 0 {
+    if mesh.layout.side() == 3 {
         return Ok(());
     }
     let others = (0..mesh.faces()).filter(|&f| mesh.face_corners(f).len() != 3);
-    let first = others.map(|f| (mesh.face_source(f), mesh.face_corners(f).len())).min();
-    first.map_or(Ok(()), |(face, size)| {
+    let first = others.min_by_key(|&f| mesh.face_source(f));
+    first.map_or(Ok(()), |face| {
+        let (size, face) = (mesh.face_corners(face).len(), mesh.face_source(face));
         let message = format!("Loop refines triangles only, face {face} has {size} sides");
         let element = Element::Face(face as u64);
         Err(Error::new(ErrorKind::Unsupported, message).with_elements([element]))
