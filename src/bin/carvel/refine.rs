@@ -103,10 +103,7 @@ pub fn predict(mesh: &Mesh, scheme: &Scheme, levels: u32) -> Result<Prediction> 
 fn run<T: Precise>(refiner: &mut Refiner<T>, context: &Context, work: &Work) -> Result<Outcome> {
     let (mesh, scheme) = (&work.built.mesh, &work.chosen.scheme);
     let features = work.chosen.has_features();
-    let texture = match features {
-        true => Texture::of(work.control, mesh, work.chosen.uv)?,
-        false => None,
-    };
+    let texture = if features { Texture::of(work.control, mesh, work.chosen.uv)? } else { None };
     let source = work.built.vertex_source.as_deref();
     let load = Load::of(work.control, source, texture.is_none());
     check_memory::<T>(context, work, &load, texture.as_ref())?;

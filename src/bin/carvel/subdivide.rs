@@ -22,7 +22,7 @@ use std::time::{Duration, Instant};
 /// Refines all inputs.
 pub fn run(args: &SubdivideArgs) -> Result<Exit, Failure> {
     args.check()?;
-    let chosen = args.scheme.choose(&SchemeTags::default())?;
+    let chosen = args.scheme.choose(SchemeTags::default())?;
     let view = args.view.view()?;
     let jobs = places::plan(&Wish {
         inputs: &args.inputs,
@@ -48,10 +48,10 @@ struct Run<'a> {
 struct Made {
     file: MeshFile,
     chosen: Chosen,
-    holes: u64,
     levels: Vec<Level>,
     anchored: bool,
     scratch: Option<u64>,
+    holes: u64,
     notes: Vec<String>,
 }
 
@@ -154,7 +154,7 @@ impl Run<'_> {
 
     fn refine(&mut self, input: &Input, seconds: &mut Seconds) -> Result<Made, Failure> {
         let of_work = |e: carvel::Error| faults::of_work(input, &e);
-        let chosen = self.args.scheme.choose(&input.file.scheme)?;
+        let chosen = self.args.scheme.choose(input.file.scheme)?;
         self.session.console.phase("building", &input.name);
         let built = timed(&mut seconds.build, || self.build_for(input, &chosen))?;
         let levels = self.args.levels;

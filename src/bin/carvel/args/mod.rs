@@ -40,6 +40,7 @@ pub enum Command {
 /// Options of `carvel subdivide`.
 #[derive(Debug, Args)]
 #[command(after_help = exit::HELP)]
+#[expect(clippy::struct_excessive_bools, reason = "one for each switch on the command line")]
 pub struct SubdivideArgs {
     /// Mesh files; - is the standard input.
     #[arg(required = true, value_name = "IN")]
@@ -104,7 +105,7 @@ impl SubdivideArgs {
     /// # Errors
     /// A usage error.
     pub fn check(&self) -> Result<(), exit::Failure> {
-        let chosen = self.scheme.choose(&SchemeTags::default())?;
+        let chosen = self.scheme.choose(SchemeTags::default())?;
         let sharpen = self.non_manifold == Policy::Sharpen;
         self.scheme.require_features("--non-manifold sharpen", sharpen)?;
         self.scheme.require_features("--keep-holes", self.keep_holes)?;

@@ -103,11 +103,11 @@ impl SchemeArgs {
     /// # Errors
     /// A usage error for an option of another scheme, a missing one, or a value
     /// out of range.
-    pub fn choose(&self, file: &SchemeTags) -> Result<Chosen, Failure> {
+    pub fn choose(&self, file: SchemeTags) -> Result<Chosen, Failure> {
         self.refuse_strangers()?;
         let preset = self.preset()?;
         let featured = FEATURED.contains(&self.scheme);
-        let tags = if featured { *file } else { SchemeTags::default() };
+        let tags = if featured { file } else { SchemeTags::default() };
         let rule = self.corner_rule.unwrap_or_default();
         let boundary = self.boundary.or(tags.boundary.map(Into::into)).unwrap_or_default();
         let creasing = self.creasing.or(tags.creasing.map(Into::into)).unwrap_or_default();
@@ -134,12 +134,12 @@ impl SchemeArgs {
             scheme,
             uv: uv.into(),
             options: asked.map(|(option, word, _)| (option, word)).collect(),
-            followed: self.followed(&tags),
+            followed: self.followed(tags),
         })
     }
 
     /// The tags that no option overrules.
-    fn followed(&self, tags: &SchemeTags) -> SchemeTags {
+    fn followed(&self, tags: SchemeTags) -> SchemeTags {
         SchemeTags {
             boundary: tags.boundary.filter(|_| self.boundary.is_none()),
             creasing: tags.creasing.filter(|_| self.creasing.is_none()),
