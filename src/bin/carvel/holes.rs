@@ -2,8 +2,7 @@
 
 use crate::records::Kept;
 use carvel::io::{Labels, MeshFile};
-use carvel::{Crease, Mesh, Result, Scheme};
-use std::collections::BTreeMap;
+use carvel::{Mesh, Result, Scheme};
 
 /// True for every refined face that is a hole, if any is: `faces` gives the control face
 /// of each, in the mesh's order.
@@ -25,6 +24,9 @@ pub fn tag(file: &mut MeshFile, hole: &[bool]) {
 
 /// Takes faces out of a file, with the vertices, texture coordinates, normals and tags that
 /// no other face uses. (What no face used before stays.)
+///
+/// The file is a refined one: the crease between two holes has a vertex in its middle, and
+/// so goes with that.
 pub fn leave_out(file: &mut MeshFile, hole: &[bool]) {
     let corners = file.face_sizes.iter().zip(hole);
     let corner_stays: Vec<bool> =
@@ -43,7 +45,6 @@ pub fn leave_out(file: &mut MeshFile, hole: &[bool]) {
     for labels in [&mut file.objects, &mut file.groups, &mut file.materials, &mut file.smoothing] {
         drop_labels(labels, &face_stays);
     }
-    drop_creases(file);
 }
 
 /// Takes corners out, and the vertices that go with them.
@@ -89,21 +90,4 @@ fn drop_labels(labels: &mut Labels, stays: &[bool]) {
     if !labels.is_empty() {
         filter(&mut labels.of_face, stays);
     }
-}
-
-/// Drops creases between vertices that stay where the edge itself went.
-fn drop_creases(file: &mut MeshFile) {
-    let sorted = |a: u32, b: u32| (a.min(b), a.max(b));
-    let key = |crease: &Crease| sorted(crease.vertices[0], crease.vertices[1]);
-    let mut there: BTreeMap<_, bool> = file.creases.iter().map(|c| (key(c), false)).collect();
-    if there.is_empty() {
-        return;
-    }
-    for face in file.faces() {
-        let next = face.iter().cycle().skip(1);
-        for (&a, &b) in face.iter().zip(next) {
-            there.entry(sorted(a, b)).and_modify(|there| *there = true);
-        }
-    }
-    file.creases.retain(|crease| there[&key(crease)]);
 }
