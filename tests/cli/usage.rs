@@ -30,7 +30,7 @@ fn help_documents_the_exit_codes_and_defaults() {
         "[default: three-point]",
         "[default: 2]",
         "1/32",
-        "[default: what the file says, or edge-corner]",
+        "[default: edge-corner]",
         "[default: what the file says, or corners-plus1]",
         "infinite ones stay so",
     ] {

@@ -32,8 +32,8 @@ pub struct SchemeArgs {
     /// loop and bilinear [default: cosine].
     #[arg(long, value_enum, value_name = "RULE")]
     corner_rule: Option<Rule>,
-    /// What happens along boundaries; of the primal schemes catmull-clark and loop ask
-    /// [default: what the file says, or edge-corner].
+    /// What happens along boundaries; catmull-clark and loop follow what the file says,
+    /// other primal schemes do not ask [default: edge-corner].
     #[arg(long, value_enum, value_name = "MODE")]
     boundary: Option<Edges>,
     /// How the sharpness of creases goes down; for catmull-clark, loop and bilinear
