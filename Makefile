@@ -15,7 +15,7 @@ COMPARED = $(if $(MESH),--mesh '$(MESH)') $(if $(LEVEL),--level '$(LEVEL)') $(CO
 
 .PHONY: demo test lint deep fuzz bench compare abi-record lib install uninstall tools test-tools clean
 
-# Refines the cow and the founding paper's torus into out/.
+# Refines the cow, a creased cube and the founding paper's torus into out/.
 demo: tools
 	$(CARGO) build --release --locked
 	assets/demo.sh

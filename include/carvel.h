@@ -98,6 +98,7 @@
  *   carvel_context    threads, memory ceiling, progress, cancellation
  *   carvel_scheme     a subdivision scheme with its parameters
  *   carvel_mesh       the topology of a mesh, checked
+ *   carvel_channel    values at the corners of a mesh's faces, with seams
  *   (predict)         what a level will cost, before anything is built
  *   carvel_refiner    one-shot: faces and values of level n
  *   carvel_hierarchy  all levels, kept: values again and again, lineage
@@ -149,8 +150,9 @@
  *            one means that the library is older than the caller: both are
  *            refused with CARVEL_STATUS_STRUCT_SIZE.
  *
- * Values     live on vertices. Data that differs between the faces of a vertex,
- *            such as texture coordinates with seams, cannot be refined yet.
+ * Values     live on vertices, or at the corners of faces where they differ
+ *            between the faces of a vertex, such as texture coordinates with
+ *            seams: carvel_channel.
  *
  * Numbers    Level n has the same vertices and faces, in the same order, from a
  *            refiner and in a hierarchy, whose meshes tell adjacency and edges.
@@ -243,7 +245,7 @@ enum carvel_status_code {
     CARVEL_STATUS_TOO_LARGE = 7,
     /* A mesh marked anchored does not have the shape that a dual step leaves. */
     CARVEL_STATUS_NOT_ANCHORED = 8,
-    /* A tag names an element that cannot carry it. */
+    /* A tag names an element that cannot carry it, or says what it cannot be. */
     CARVEL_STATUS_INVALID_TAG = 9,
 
     /* Data and parameters. */
@@ -266,10 +268,11 @@ enum carvel_status_code {
     /* The progress callback or carvel_context_cancel asked to stop. */
     CARVEL_STATUS_CANCELLED = 17,
 
-    /* Files; no function of this header returns these yet. The C++ layer answers
-     * UNSUPPORTED for what it cannot take from another library. */
+    /* Files; no function of this header returns these yet. */
     CARVEL_STATUS_IO = 18,
     CARVEL_STATUS_SYNTAX = 19,
+    /* A scheme has no rule for what it was given. The C++ layer answers this, too,
+     * for what it cannot take from another library. */
     CARVEL_STATUS_UNSUPPORTED = 20,
 
     /* A stored invariant does not hold: a defect of the library. */
@@ -445,21 +448,40 @@ typedef struct carvel_fraction {
     int64_t denominator;
 } carvel_fraction;
 
+/* A step of a scheme splits every face in one of three ways:
+ *   corner     dual: a new vertex for every corner of a face;
+ *   quad       primal: a quad for every corner, about the middle of the face;
+ *   triangle   primal: four triangles for every triangle. */
 enum carvel_scheme_family {
-    /* Doo and Sabin 1978: biquadratic B-splines, C1. */
+    /* Doo and Sabin 1978: biquadratic B-splines, C1. Corner split. */
     CARVEL_SCHEME_DOO_SABIN = 0,
     /* The three-point family, univariate mask [w, 1/4+w, 3/4-2w, ...]; C2 for
-     * w = 1/32. */
+     * w = 1/32. Corner split. */
     CARVEL_SCHEME_THREE_POINT = 1,
-    /* Tensor-product quartic B-splines, C3. */
+    /* Tensor-product quartic B-splines, C3. Corner split. */
     CARVEL_SCHEME_QUARTIC = 2,
-    /* Tensor-product B-splines of an even degree. */
+    /* Tensor-product B-splines of any degree: corner split for an even one, quad
+     * split for an odd one. Degree 3 is Catmull and Clark's scheme on regular
+     * meshes alone. */
     CARVEL_SCHEME_B_SPLINE = 3,
-    /* The dual split followed by any list of smoothing passes M_t. */
-    CARVEL_SCHEME_AVERAGING = 4
+    /* The corner split followed by any list of smoothing passes M_t. */
+    CARVEL_SCHEME_AVERAGING = 4,
+    /* Catmull and Clark 1978: bicubic B-splines, C2 but at extraordinary vertices;
+     * OpenSubdiv's SCHEME_CATMARK. Quad split. Heeds creases and sharp vertices. */
+    CARVEL_SCHEME_CATMULL_CLARK = 5,
+    /* Loop 1987: quartic box splines, C2 but at extraordinary vertices; OpenSubdiv's
+     * SCHEME_LOOP. Triangle split: every face must be a triangle. Heeds creases
+     * and sharp vertices. */
+    CARVEL_SCHEME_LOOP = 6,
+    /* Midpoints of edges and means of faces, nothing is smoothed; OpenSubdiv's
+     * SCHEME_BILINEAR. Quad split. */
+    CARVEL_SCHEME_BILINEAR = 7,
+    /* The quad split followed by any list of smoothing passes M_t. */
+    CARVEL_SCHEME_PRIMAL = 8
 };
 
-/* Which corner operator is used on n-gons that are no quads. */
+/* Which corner operator smoothing passes use on n-gons that are no quads. For the
+ * families that average: not CATMULL_CLARK, LOOP and BILINEAR. */
 enum carvel_corner_rule {
     /* Doo and Sabin's cosine weights. */
     CARVEL_CORNER_RULE_COSINE = 0,
@@ -467,15 +489,47 @@ enum carvel_corner_rule {
     CARVEL_CORNER_RULE_AVERAGE = 1
 };
 
-/* What happens along a boundary, in OpenSubdiv's vocabulary. */
+/* What happens along a boundary, in OpenSubdiv's vocabulary; its own default is
+ * NONE. BILINEAR, PRIMAL and B-splines of odd degree do the same in all three:
+ * the boundary is the univariate curve of the boundary polygon. */
 enum carvel_boundary {
     /* The boundary curve is the univariate curve of the boundary polygon;
-     * tagged corners and vertices with a single face are interpolated. */
+     * tagged corners and vertices with a single face are interpolated.
+     * VTX_BOUNDARY_EDGE_AND_CORNER. */
     CARVEL_BOUNDARY_EDGE_AND_CORNER = 0,
-    /* The same, but only tagged corners are interpolated. */
+    /* The same, but only tagged corners are interpolated. VTX_BOUNDARY_EDGE_ONLY. */
     CARVEL_BOUNDARY_EDGE = 1,
-    /* No added points: the surface ends half a cell inside. */
+    /* Corner split: no added points, the surface ends half a cell inside.
+     * CATMULL_CLARK and LOOP: every face at a boundary vertex is a hole, see
+     * carvel_scheme_holes; it is refined all the same. VTX_BOUNDARY_NONE. */
     CARVEL_BOUNDARY_NONE = 2
+};
+
+/* What a step leaves of the sharpness of a semi-sharp crease. */
+enum carvel_creasing {
+    /* One less. CREASE_UNIFORM. */
+    CARVEL_CREASING_UNIFORM = 0,
+    /* One less than three quarters of its own and one quarter of the mean of the
+     * other semi-sharp edges at that end, so that sharpness varies smoothly along
+     * a crease. CREASE_CHAIKIN. */
+    CARVEL_CREASING_CHAIKIN = 1
+};
+
+/* What Catmull and Clark's scheme does with the triangles of a control mesh. */
+enum carvel_triangle_rule {
+    /* The same as with other faces. TRI_SUB_CATMARK. */
+    CARVEL_TRIANGLE_RULE_CATMULL_CLARK = 0,
+    /* Other weights on edges beside triangles. TRI_SUB_SMOOTH. */
+    CARVEL_TRIANGLE_RULE_SMOOTH = 1
+};
+
+/* The weight b of each neighbour of an interior vertex in Loop's scheme, by the
+ * vertex's valence n. */
+enum carvel_loop_weights {
+    /* Loop's own, which OpenSubdiv has: (5/8 - (3/8 + cos(2 pi/n)/4)^2) / n. */
+    CARVEL_LOOP_WEIGHTS_LOOP = 0,
+    /* Warren's: 3/(8 n), and 3/16 for n = 3. */
+    CARVEL_LOOP_WEIGHTS_WARREN = 1
 };
 
 typedef struct carvel_scheme_desc {
@@ -483,20 +537,28 @@ typedef struct carvel_scheme_desc {
     uint32_t struct_size;
     /* One of enum carvel_scheme_family. */
     int32_t family;
-    /* One of enum carvel_corner_rule. */
+    /* Families that average only: one of enum carvel_corner_rule. */
     int32_t corner_rule;
     /* One of enum carvel_boundary. */
     int32_t boundary;
     /* THREE_POINT only: the parameter, 0 <= w <= 1/16; 0/0 for 1/32. */
     carvel_fraction w;
-    /* B_SPLINE only: the degree, even, 2 to 64. */
+    /* B_SPLINE only: the degree, 1 to 65. */
     uint64_t degree;
-    /* AVERAGING only: the passes, in order, |t| <= 1000, at most 64. */
+    /* AVERAGING and PRIMAL only: the passes, in order, |t| <= 1000, at most 64. */
     const carvel_fraction *passes;
     uint64_t pass_count;
+    /* CATMULL_CLARK and LOOP only: one of enum carvel_creasing. */
+    int32_t creasing;
+    /* CATMULL_CLARK only: one of enum carvel_triangle_rule. */
+    int32_t triangle_rule;
+    /* LOOP only: one of enum carvel_loop_weights. */
+    int32_t loop_weights;
+    /* Must be 0. */
+    int32_t reserved;
 } carvel_scheme_desc;
 
-/* Sets defaults: Doo-Sabin, cosine, edge and corner.
+/* Sets defaults: Doo-Sabin, cosine, edge and corner, uniform creasing.
  * Errors: NULL_POINTER, MISALIGNED, STRUCT_SIZE. */
 CARVEL_API carvel_status carvel_scheme_desc_init(carvel_scheme_desc *desc,
                                                  uint32_t struct_size);
@@ -510,7 +572,8 @@ CARVEL_API carvel_status carvel_scheme_create(const carvel_scheme_desc *desc,
 /* Destroys a scheme; NULL is allowed. */
 CARVEL_API void carvel_scheme_destroy(carvel_scheme *scheme);
 
-/* The smoothing passes that the scheme comes down to, in lowest terms.
+/* The smoothing passes that the scheme comes down to, in lowest terms; none for
+ * CATMULL_CLARK, LOOP and BILINEAR.
  * out: `capacity` fractions; may be NULL if capacity is 0.
  * count: receives the number of passes, at most 64, also if the buffer is too
  * small: a first call with capacity 0 asks. May be NULL.
@@ -519,11 +582,28 @@ CARVEL_API carvel_status carvel_scheme_passes(const carvel_scheme *scheme, carve
                                               uint64_t capacity, uint64_t *count,
                                               carvel_error *error);
 
+/* The faces of a mesh, ascending in its own order, that are holes under a scheme:
+ * those tagged as such and, for CATMULL_CLARK and LOOP with boundary NONE, all
+ * those at a boundary vertex. Holes are refined like other faces and their
+ * children are in every result; what is drawn leaves out each refined face whose
+ * control face (carvel_refine_output.face_sources) is one.
+ * out: `capacity` faces; may be NULL if capacity is 0.
+ * count: receives the number of holes, also if the buffer is too small: a first
+ * call with capacity 0 asks. May be NULL. O(boundary and holes).
+ * Errors: NULL_POINTER, MISALIGNED, OVERLAP, BUFFER_TOO_SMALL (not for capacity 0),
+ * OUT_OF_RESOURCES. */
+struct carvel_mesh;
+CARVEL_API carvel_status carvel_scheme_holes(const carvel_scheme *scheme,
+                                             const struct carvel_mesh *mesh, uint32_t *out,
+                                             uint64_t capacity, uint64_t *count,
+                                             carvel_error *error);
+
 /* ==========================================================================
  * carvel_mesh: the topology of a mesh, checked
  *
- * An orientable 2-manifold of polygons, closed or with boundary, of any number
- * of components; no positions. Corners are the places of the concatenated
+ * An orientable 2-manifold of polygons (or, under CARVEL_NON_MANIFOLD_SHARPEN,
+ * what comes near to one), closed or with boundary, of any number of components;
+ * no positions. Corners are the places of the concatenated
  * face-vertex array. Faces that are no quads come first (no triangles, in a mesh
  * of triangles alone) and keep the caller's order within that rule, unless a
  * large mesh comes in no order at all and is put in one; carvel_mesh_face_sources
@@ -539,7 +619,12 @@ enum carvel_non_manifold {
     CARVEL_NON_MANIFOLD_REFUSE = 0,
     /* Make every face side at such an edge a boundary edge, and give every extra
      * fan of a vertex its own copy of it; carvel_mesh_vertex_sources tells. */
-    CARVEL_NON_MANIFOLD_CUT = 1
+    CARVEL_NON_MANIFOLD_CUT = 1,
+    /* Keep them as they are, infinitely sharp, as OpenSubdiv does: an edge is one
+     * for all its faces. So are their vertices, but for those that just two such
+     * edges and no boundary meet at, which form a crease. For CATMULL_CLARK, LOOP
+     * and linear refinement; other schemes answer UNSUPPORTED. */
+    CARVEL_NON_MANIFOLD_SHARPEN = 2
 };
 
 /* Faces as the caller has them, in one of three layouts:
@@ -567,26 +652,50 @@ typedef struct carvel_mesh_desc {
     uint64_t face_vertex_count;
     /* One of enum carvel_non_manifold. */
     int32_t non_manifold;
-    /* 1 if the mesh is the result of a dual step with a boundary rule other
+    /* 1 if the mesh is the result of a corner split with a boundary rule other
      * than NONE (a further step must not round its boundary off again),
      * otherwise 0. */
     int32_t anchored;
     /* Boundary vertices to interpolate although they have several faces. */
     const uint32_t *corner_tags;
     uint64_t corner_tag_count;
+    /* Creases, edges that subdivision keeps sharp: the two vertices of each in
+     * either order, 2 * crease_count entries, and its sharpness, crease_count.
+     *
+     * Sharpness, of creases and of vertices, is a number from 0 up. It counts
+     * steps: each takes 1 off (see enum carvel_creasing), and what is left of a
+     * last fraction blends the sharp and the smooth rule. 0 is smooth; 10 and more
+     * never ends. The boundary is infinitely sharp without being told, and what
+     * is said of its edges is not kept. */
+    const uint32_t *crease_vertices;
+    const float *crease_sharpness;
+    uint64_t crease_count;
+    /* Sharp vertices and the sharpness of each. One that never ends is
+     * interpolated: a corner, inside or on the boundary. */
+    const uint32_t *sharp_vertices;
+    const float *vertex_sharpness;
+    uint64_t sharp_vertex_count;
+    /* Faces, in the order of these arrays, that are refined but left out of what
+     * is drawn: see carvel_scheme_holes. */
+    const uint32_t *holes;
+    uint64_t hole_count;
 } carvel_mesh_desc;
 
-/* Sets defaults: no faces, refuse what is not manifold, not anchored, no tags.
+/* Sets defaults: no faces, refuse what is not manifold, not anchored, no tags, no
+ * creases, no sharp vertices, no holes.
  * Errors: NULL_POINTER, MISALIGNED, STRUCT_SIZE. */
 CARVEL_API carvel_status carvel_mesh_desc_init(carvel_mesh_desc *desc, uint32_t struct_size);
 
-/* Builds a mesh; O(corners). A mesh without faces or vertices is allowed.
+/* Builds a mesh; O(corners), and O(n log n) in the tags. A mesh without faces or
+ * vertices is allowed. Copies of vertices are as sharp as their sources.
  * Errors: NULL_POINTER, MISALIGNED, STRUCT_SIZE; PARAMETER_OUT_OF_RANGE for an
  * unknown policy, for `anchored` other than 0 and 1, for no layout or for several,
  * and for offsets that fall or do not begin at 0;
  * LENGTH_MISMATCH, TOO_LARGE; INDEX_OUT_OF_RANGE to NON_MANIFOLD_VERTEX for the
- * first defect, with all of them as entries of the error; NOT_ANCHORED,
- * INVALID_TAG, MEMORY_CEILING, OUT_OF_RESOURCES, CANCELLED. */
+ * first defect, with all of them as entries of the error; NOT_ANCHORED;
+ * INVALID_TAG for a tag, crease, sharp vertex or hole that names no such element, a
+ * sharpness that is negative or NaN, and two sharpnesses of one element;
+ * MEMORY_CEILING, OUT_OF_RESOURCES, CANCELLED. */
 CARVEL_API carvel_status carvel_mesh_create(const carvel_context *context,
                                             const carvel_mesh_desc *desc, carvel_mesh **out,
                                             carvel_error *error);
@@ -606,7 +715,7 @@ typedef struct carvel_counts {
     /* The sum of the face sizes. */
     uint64_t corners;
     uint64_t edges;
-    /* Edges with a face on one side only. */
+    /* Edges with one face only. */
     uint64_t boundary_edges;
     /* Faces at the front that are no quads (no triangles, in a mesh of triangles
      * alone). */
@@ -639,6 +748,12 @@ typedef struct carvel_survey {
     uint64_t corner_tags;
     /* Bytes held by the topology. */
     uint64_t bytes;
+    /* Sharp edges that are not on the boundary. */
+    uint64_t creases;
+    /* Sharp vertices, those of copies and those of SHARPEN included. */
+    uint64_t sharp_vertices;
+    /* Faces tagged as holes; in a refined level those that descend from a hole. */
+    uint64_t holes;
 } carvel_survey;
 
 /* Prepares the struct for a survey.
@@ -702,7 +817,8 @@ CARVEL_API carvel_status carvel_mesh_edges(const carvel_mesh *mesh, uint32_t *ou
 CARVEL_API carvel_status carvel_mesh_corner_edges(const carvel_mesh *mesh, uint32_t *out,
                                                   uint64_t capacity, carvel_error *error);
 
-/* The corner across that edge, UINT32_MAX on a boundary: `corners`. */
+/* The corner across that edge: `corners`. UINT32_MAX on a boundary, and where
+ * CARVEL_NON_MANIFOLD_SHARPEN has kept an edge that is not manifold. */
 CARVEL_API carvel_status carvel_mesh_corner_twins(const carvel_mesh *mesh, uint32_t *out,
                                                   uint64_t capacity, carvel_error *error);
 
@@ -710,7 +826,8 @@ CARVEL_API carvel_status carvel_mesh_corner_twins(const carvel_mesh *mesh, uint3
 CARVEL_API carvel_status carvel_mesh_valences(const carvel_mesh *mesh, uint32_t *out,
                                               uint64_t capacity, carvel_error *error);
 
-/* 1 for every vertex on a boundary, otherwise 0: `vertices`. */
+/* 1 for every vertex on a boundary or on an edge that is not manifold, otherwise 0:
+ * `vertices`. */
 CARVEL_API carvel_status carvel_mesh_boundary_flags(const carvel_mesh *mesh, uint8_t *out,
                                                     uint64_t capacity, carvel_error *error);
 
@@ -729,10 +846,105 @@ CARVEL_API carvel_status carvel_mesh_vertex_sources(const carvel_mesh *mesh, uin
 CARVEL_API carvel_status carvel_mesh_corner_tags(const carvel_mesh *mesh, uint32_t *out,
                                                  uint64_t capacity, carvel_error *error);
 
+/* The creases, by the two vertices of each: 2 * `creases` of carvel_survey; and
+ * their sharpness, above 0 and at most 10: `creases`. For the mesh of a refined
+ * level, what is left there. */
+CARVEL_API carvel_status carvel_mesh_crease_vertices(const carvel_mesh *mesh, uint32_t *out,
+                                                     uint64_t capacity, carvel_error *error);
+CARVEL_API carvel_status carvel_mesh_crease_sharpness(const carvel_mesh *mesh, float *out,
+                                                      uint64_t capacity, carvel_error *error);
+
+/* The sharp vertices, ascending, and their sharpness: `sharp_vertices` of
+ * carvel_survey. */
+CARVEL_API carvel_status carvel_mesh_sharp_vertices(const carvel_mesh *mesh, uint32_t *out,
+                                                    uint64_t capacity, carvel_error *error);
+CARVEL_API carvel_status carvel_mesh_vertex_sharpness(const carvel_mesh *mesh, float *out,
+                                                      uint64_t capacity, carvel_error *error);
+
+/* The faces tagged as holes, in the mesh's order, ascending: `holes` of
+ * carvel_survey. carvel_scheme_holes adds what a scheme makes holes of. */
+CARVEL_API carvel_status carvel_mesh_holes(const carvel_mesh *mesh, uint32_t *out,
+                                           uint64_t capacity, carvel_error *error);
+
+/* 1 if every edge has at most two faces, which agree in orientation, and the faces
+ * around every vertex form one fan; 0 if CARVEL_NON_MANIFOLD_SHARPEN has kept
+ * something else, and for NULL. No cost. */
+CARVEL_API int32_t carvel_mesh_is_manifold(const carvel_mesh *mesh);
+
 /* Checks every stored invariant; O(corners).
  * Errors: NULL_POINTER, MISALIGNED, OUT_OF_RESOURCES; BROKEN_INVARIANT is a defect
  * of the library. */
 CARVEL_API carvel_status carvel_mesh_validate(const carvel_mesh *mesh, carvel_error *error);
+
+/* ==========================================================================
+ * carvel_channel: values at the corners of a mesh's faces, with seams
+ *
+ * Says which value each corner of a mesh takes; the values themselves come with
+ * each refinement. Corners of one vertex that take the same value share it. Where
+ * the faces beside an edge take different values at either end, the edge is a
+ * seam, in the input and at every level. For CATMULL_CLARK, LOOP and BILINEAR;
+ * the other families answer UNSUPPORTED. Immutable and shared freely. OpenSubdiv
+ * calls this a face-varying channel.
+ * ========================================================================== */
+
+typedef struct carvel_channel carvel_channel;
+
+/* How smooth values are along the boundaries of a channel: its seams, and the
+ * boundary of the mesh. Elsewhere they follow the scheme's own rows. OpenSubdiv's
+ * names; its own default is ALL. */
+enum carvel_face_varying {
+    /* Boundaries are smooth curves, but values of a single face stay.
+     * FVAR_LINEAR_CORNERS_ONLY. */
+    CARVEL_FACE_VARYING_CORNERS = 0,
+    /* Corners are rounded off, too, but for those that the scheme keeps as vertices.
+     * FVAR_LINEAR_NONE. */
+    CARVEL_FACE_VARYING_SMOOTH = 1,
+    /* As CORNERS, and values stay where three and more meet at a vertex, or where
+     * one of two is not one piece. FVAR_LINEAR_CORNERS_PLUS1. */
+    CARVEL_FACE_VARYING_CORNERS_PLUS1 = 2,
+    /* And at the ends of seams, and both where one of two is of a single face.
+     * FVAR_LINEAR_CORNERS_PLUS2. */
+    CARVEL_FACE_VARYING_CORNERS_PLUS2 = 3,
+    /* Boundaries are refined linearly. FVAR_LINEAR_BOUNDARIES. */
+    CARVEL_FACE_VARYING_BOUNDARIES = 4,
+    /* Everything is refined linearly. FVAR_LINEAR_ALL. */
+    CARVEL_FACE_VARYING_ALL = 5
+};
+
+typedef struct carvel_channel_desc {
+    /* sizeof(carvel_channel_desc). */
+    uint32_t struct_size;
+    /* One of enum carvel_face_varying. */
+    int32_t mode;
+    /* The value of every corner, in the order of the arrays that the mesh was made
+     * of; for the mesh of a refined level, in its own. */
+    const uint32_t *indices;
+    /* Their number: the mesh's `corners`. */
+    uint64_t index_count;
+    /* The number of values; some may be taken by no corner. */
+    uint64_t value_count;
+} carvel_channel_desc;
+
+/* Sets defaults: no corners, corners stay.
+ * Errors: NULL_POINTER, MISALIGNED, STRUCT_SIZE. */
+CARVEL_API carvel_status carvel_channel_desc_init(carvel_channel_desc *desc,
+                                                  uint32_t struct_size);
+
+/* Makes a channel for a mesh, which is shared, not copied, and may be destroyed.
+ * O(corners).
+ * Errors: NULL_POINTER, MISALIGNED, STRUCT_SIZE; PARAMETER_OUT_OF_RANGE for an
+ * unknown mode; LENGTH_MISMATCH unless there is one index for each corner;
+ * INDEX_OUT_OF_RANGE for one that is no value, naming the face in the order of
+ * `indices`; TOO_LARGE, OUT_OF_RESOURCES. */
+CARVEL_API carvel_status carvel_channel_create(const carvel_mesh *mesh,
+                                               const carvel_channel_desc *desc,
+                                               carvel_channel **out, carvel_error *error);
+
+/* Destroys a channel; NULL is allowed. */
+CARVEL_API void carvel_channel_destroy(carvel_channel *channel);
+
+/* The number of edges inside the mesh that are seams; 0 for NULL. O(corners). */
+CARVEL_API uint64_t carvel_channel_seam_edges(const carvel_channel *channel);
 
 /* ==========================================================================
  * Predictions: what a level will cost, before anything is built
@@ -747,8 +959,8 @@ typedef struct carvel_bytes {
     /* The adjacency of levels 1 to `level` in a carvel_hierarchy. */
     uint64_t topology;
     /* Scratch memory of a refiner while it writes that level, without what
-     * face_sources (4 bytes for each face of all levels) and records with gaps
-     * (a copy of them) take. */
+     * face_sources (4 bytes for each face of all levels), records with gaps
+     * (a copy of them) and channels take. */
     uint64_t scratch;
     /* Faces (sizes and vertices) and values of that level. */
     uint64_t output;
@@ -762,7 +974,10 @@ CARVEL_API carvel_status carvel_bytes_init(carvel_bytes *bytes, uint32_t struct_
  * look at the boundary and the irregular vertices.
  * level: 0 to 64; the counts may exceed what 32-bit indices can hold.
  * Errors: NULL_POINTER, MISALIGNED, STRUCT_SIZE; TOO_LARGE if a count leaves 64
- * bits, and for more than 64 levels; OUT_OF_RESOURCES. */
+ * bits, and for more than 64 levels; UNSUPPORTED for a mesh that the scheme has no
+ * rule for: LOOP on a face that is no triangle, which the error names; sharp
+ * features, or edges and vertices that are not manifold, under a scheme that does
+ * not heed them; OUT_OF_RESOURCES. */
 CARVEL_API carvel_status carvel_predict_counts(const carvel_mesh *mesh,
                                                const carvel_scheme *scheme, uint32_t level,
                                                carvel_counts *counts, carvel_error *error);
@@ -777,12 +992,21 @@ CARVEL_API carvel_status carvel_predict_bytes(const carvel_mesh *mesh,
                                               uint32_t width, uint32_t value_size,
                                               carvel_bytes *bytes, carvel_error *error);
 
+/* The number of values that a channel has at a level under a scheme; those of level
+ * 0 are the caller's. Costs as carvel_predict_counts.
+ * values: receives the number; not NULL.
+ * Errors: NULL_POINTER, MISALIGNED; TOO_LARGE as carvel_predict_counts; UNSUPPORTED
+ * for a scheme without rules for channels, but at level 0; OUT_OF_RESOURCES. */
+CARVEL_API carvel_status carvel_predict_channel(const carvel_channel *channel,
+                                                const carvel_scheme *scheme, uint32_t level,
+                                                uint64_t *values, carvel_error *error);
+
 /* ==========================================================================
  * Arrays of values and indices
  * ========================================================================== */
 
-/* Values to read, one record for each vertex. `count` must be the number of
- * vertices. The layouts are final. */
+/* Values to read, one record for each vertex, or for each value of a channel.
+ * `count` must be their number. The layouts are final. */
 typedef struct carvel_const_values_f32 {
     const float *data;
     /* Records. */
@@ -819,6 +1043,16 @@ typedef struct carvel_values_f64 {
     uint64_t stride;
 } carvel_values_f64;
 
+/* By which rows values on vertices are refined. */
+enum carvel_interpolation {
+    /* The scheme's own, as positions are. OpenSubdiv's vertex data. */
+    CARVEL_INTERPOLATION_VERTEX = 0,
+    /* Linear, whatever the scheme smooths: old vertices keep their values, those of
+     * edges are midpoints, those of faces means. OpenSubdiv's varying data. For
+     * schemes with a quad or triangle split; others answer UNSUPPORTED. */
+    CARVEL_INTERPOLATION_VARYING = 1
+};
+
 /* Indices to write: room for `count` entries. Not wanted if `data` is NULL and
  * `count` is 0. The layout is final. */
 typedef struct carvel_indices {
@@ -848,6 +1082,33 @@ CARVEL_API void carvel_refiner_destroy(carvel_refiner *refiner);
  * thread. */
 CARVEL_API uint64_t carvel_refiner_bytes(const carvel_refiner *refiner);
 
+/* Values at the corners of faces to refine. The layouts are final. */
+typedef struct carvel_channel_input_f32 {
+    /* Made for the mesh that is refined, or for one that is like it in everything. */
+    const carvel_channel *channel;
+    /* A record for each of its values. */
+    carvel_const_values_f32 values;
+} carvel_channel_input_f32;
+
+typedef struct carvel_channel_input_f64 {
+    const carvel_channel *channel;
+    carvel_const_values_f64 values;
+} carvel_channel_input_f64;
+
+/* Where they go. The layouts are final. */
+typedef struct carvel_channel_output_f32 {
+    /* The value of every corner, as carvel_refine_output.face_vertices has them:
+     * `corners`; not to be left out. */
+    carvel_indices indices;
+    /* The values: as many records as carvel_predict_channel says. */
+    carvel_values_f32 values;
+} carvel_channel_output_f32;
+
+typedef struct carvel_channel_output_f64 {
+    carvel_indices indices;
+    carvel_values_f64 values;
+} carvel_channel_output_f64;
+
 /* What to refine. The mesh's own vertices are counted: with
  * CARVEL_NON_MANIFOLD_CUT there may be more than the caller gave. */
 typedef struct carvel_refine_input_f32 {
@@ -859,9 +1120,15 @@ typedef struct carvel_refine_input_f32 {
     const carvel_scheme *scheme;
     /* xyz of every vertex: width 3. */
     carvel_const_values_f32 positions;
-    /* Further values, refined by the same rows; at most 256 of them. */
+    /* Further values on vertices; at most 256 of them. */
     const carvel_const_values_f32 *attributes;
     uint64_t attribute_count;
+    /* One of enum carvel_interpolation for each attribute; NULL for the scheme's
+     * own rows for all. */
+    const int32_t *interpolations;
+    /* Values at the corners of faces; at most 256 channels. */
+    const carvel_channel_input_f32 *channels;
+    uint64_t channel_count;
 } carvel_refine_input_f32;
 
 typedef struct carvel_refine_input_f64 {
@@ -872,6 +1139,9 @@ typedef struct carvel_refine_input_f64 {
     carvel_const_values_f64 positions;
     const carvel_const_values_f64 *attributes;
     uint64_t attribute_count;
+    const int32_t *interpolations;
+    const carvel_channel_input_f64 *channels;
+    uint64_t channel_count;
 } carvel_refine_input_f64;
 
 /* Where the result goes. Sizes are those of carvel_predict_counts. It must not
@@ -883,7 +1153,7 @@ typedef struct carvel_refine_output_f32 {
      * own, must have carvel_mesh_desc.anchored set. */
     int32_t anchored;
     /* The size of every face: `faces`. From level 1 on all but the first
-     * `irregular_faces` are quads. */
+     * `irregular_faces` are quads, or all are triangles after a triangle split. */
     carvel_indices face_sizes;
     /* The first corner of every face, and the number of corners: `faces` + 1. */
     carvel_indices face_offsets;
@@ -897,6 +1167,9 @@ typedef struct carvel_refine_output_f32 {
     /* One for each attribute of the input, of the same width. */
     const carvel_values_f32 *attributes;
     uint64_t attribute_count;
+    /* One for each channel of the input, of the same width. */
+    const carvel_channel_output_f32 *channels;
+    uint64_t channel_count;
 } carvel_refine_output_f32;
 
 typedef struct carvel_refine_output_f64 {
@@ -909,6 +1182,8 @@ typedef struct carvel_refine_output_f64 {
     carvel_values_f64 positions;
     const carvel_values_f64 *attributes;
     uint64_t attribute_count;
+    const carvel_channel_output_f64 *channels;
+    uint64_t channel_count;
 } carvel_refine_output_f64;
 
 /* Set defaults: everything empty.
@@ -934,9 +1209,12 @@ CARVEL_API carvel_status carvel_refine_output_f64_init(carvel_refine_output_f64 
  * level gives the same surface, numbered otherwise.
  *
  * Errors: NULL_POINTER, MISALIGNED, STRUCT_SIZE, INVALID_STRIDE, OVERLAP,
- * BUFFER_TOO_SMALL; LENGTH_MISMATCH for a wrong count, or a width that is not that
- * of the positions or of the input; PARAMETER_OUT_OF_RANGE for a width that is none
- * and for too many attributes; NOT_FINITE, OVERFLOW;
+ * BUFFER_TOO_SMALL; LENGTH_MISMATCH for a wrong count, a width that is not that
+ * of the positions or of the input, or a channel of another mesh;
+ * PARAMETER_OUT_OF_RANGE for a width or an interpolation that is none and for too
+ * many attributes or channels; UNSUPPORTED for a mesh, an interpolation or a channel
+ * that the scheme has no rule for; NOT_FINITE, OVERFLOW, which in a channel name a
+ * value where they name a vertex elsewhere;
  * TOO_LARGE, MEMORY_CEILING, OUT_OF_RESOURCES; CANCELLED; BUSY. */
 CARVEL_API carvel_status carvel_refiner_refine_f32(carvel_refiner *refiner,
                                                    const carvel_context *context,
@@ -962,7 +1240,7 @@ typedef struct carvel_hierarchy carvel_hierarchy;
  * mesh is shared, not copied, and may be destroyed.
  * levels: 0 to 64.
  * Errors: NULL_POINTER, MISALIGNED, TOO_LARGE, MEMORY_CEILING, OUT_OF_RESOURCES,
- * CANCELLED. O(corners of the last level). */
+ * CANCELLED; UNSUPPORTED as carvel_predict_counts. O(corners of the last level). */
 CARVEL_API carvel_status carvel_hierarchy_create(const carvel_context *context,
                                                  const carvel_mesh *mesh,
                                                  const carvel_scheme *scheme, uint32_t levels,
@@ -1009,18 +1287,42 @@ CARVEL_API carvel_status carvel_hierarchy_refine_f64(const carvel_hierarchy *hie
                                                      const carvel_values_f64 *out,
                                                      carvel_error *error);
 
+/* The same by rows of choice: one of enum carvel_interpolation.
+ * Errors: as carvel_hierarchy_refine, PARAMETER_OUT_OF_RANGE for an interpolation
+ * that is none, and UNSUPPORTED for one that the scheme does not have. */
+CARVEL_API carvel_status carvel_hierarchy_interpolate_f32(const carvel_hierarchy *hierarchy,
+                                                          const carvel_context *context,
+                                                          uint32_t level, int32_t interpolation,
+                                                          const carvel_const_values_f32 *values,
+                                                          const carvel_values_f32 *out,
+                                                          carvel_error *error);
+CARVEL_API carvel_status carvel_hierarchy_interpolate_f64(const carvel_hierarchy *hierarchy,
+                                                          const carvel_context *context,
+                                                          uint32_t level, int32_t interpolation,
+                                                          const carvel_const_values_f64 *values,
+                                                          const carvel_values_f64 *out,
+                                                          carvel_error *error);
+
+/* Kinds of origin, and the steps after which an element has them. Faces of triangles
+ * have a triangle at each corner, and one in the middle that comes from the face. */
 enum carvel_origin_kind {
-    /* A face of the level before. */
+    /* A face of the level before. For vertices: the middle of the face (quad split).
+     * For faces: the smaller face inside (corner split), or the middle triangle. */
     CARVEL_ORIGIN_FACE = 1,
-    /* An edge, by a corner that it leads away from, either one inside. Its number
-     * is the same from both in carvel_mesh_corner_edges. */
+    /* An edge, by a corner that it leads away from, any one inside. Its number
+     * is the same from all in carvel_mesh_corner_edges. For vertices: the middle of
+     * the edge (quad and triangle split). For faces: the one along it (corner
+     * split). */
     CARVEL_ORIGIN_EDGE = 2,
-    /* A vertex: for a refined vertex, a corner of the boundary or an isolated
-     * vertex. */
+    /* A vertex. For vertices: the one that stayed (quad and triangle split), or a
+     * corner of the boundary or an isolated vertex (corner split). For faces: the
+     * one around it (corner split). */
     CARVEL_ORIGIN_VERTEX = 3,
-    /* A corner of a face. */
+    /* A corner of a face. For vertices: corner split. For faces: the quad or the
+     * triangle in that corner (quad and triangle split). */
     CARVEL_ORIGIN_CORNER = 4,
-    /* The boundary edge that leads away from a corner, near its start. */
+    /* The boundary edge that leads away from a corner, near its start (corner
+     * split). */
     CARVEL_ORIGIN_EDGE_START = 5,
     /* The same, near its end. */
     CARVEL_ORIGIN_EDGE_END = 6
@@ -1034,7 +1336,9 @@ typedef struct carvel_origin {
     uint32_t index;
 } carvel_origin;
 
-/* Where the vertices of a level come from: `vertices` of that level entries.
+/* Where the vertices of a level come from: `vertices` of that level entries. After a
+ * quad or triangle split these are, in order, all vertices of the level before, all
+ * its edges by their first corner and, after a quad split, all its faces.
  * level: 1 to the last. Linear cost.
  * Errors: NULL_POINTER, MISALIGNED, PARAMETER_OUT_OF_RANGE, BUFFER_TOO_SMALL,
  * OUT_OF_RESOURCES. */
@@ -1042,14 +1346,19 @@ CARVEL_API carvel_status carvel_hierarchy_vertex_origins(const carvel_hierarchy 
                                                          uint32_t level, carvel_origin *out,
                                                          uint64_t capacity, carvel_error *error);
 
-/* Where the faces of a level come from: `faces` of that level entries. */
+/* Where the faces of a level come from: `faces` of that level entries. After a quad
+ * split these are all corners of the level before, in order: face c begins at the
+ * vertex of corner c and goes on through the edge that leads away, the middle of the
+ * face and the edge before. After a triangle split faces 4 f to 4 f + 2 are those in
+ * the corners of face f, from the vertex through the two edges, and 4 f + 3 is the
+ * one in the middle. */
 CARVEL_API carvel_status carvel_hierarchy_face_origins(const carvel_hierarchy *hierarchy,
                                                        uint32_t level, carvel_origin *out,
                                                        uint64_t capacity, carvel_error *error);
 
 /* The weights of one stage of a step as a sparse matrix in CSR form. Stage 0 is
  * the split, from the vertices of `level` - 1 to those of `level`; stage k is the
- * k-th smoothing pass, on the vertices of `level`. Stencil tables of whole levels
+ * k-th smoothing pass, on the vertices of `level`: those of carvel_scheme_passes. Stencil tables of whole levels
  * will replace this.
  *
  * offsets: `vertices` of the level + 1 entries.

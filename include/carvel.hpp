@@ -346,6 +346,8 @@ template <>
 struct Layouts<float> {
     using ConstValues = carvel_const_values_f32;
     using Values = carvel_values_f32;
+    using ChannelInput = carvel_channel_input_f32;
+    using ChannelOutput = carvel_channel_output_f32;
     using Input = carvel_refine_input_f32;
     using Output = carvel_refine_output_f32;
 };
@@ -354,6 +356,8 @@ template <>
 struct Layouts<double> {
     using ConstValues = carvel_const_values_f64;
     using Values = carvel_values_f64;
+    using ChannelInput = carvel_channel_input_f64;
+    using ChannelOutput = carvel_channel_output_f64;
     using Input = carvel_refine_input_f64;
     using Output = carvel_refine_output_f64;
 };
@@ -660,6 +664,7 @@ protected:
 inline void destroy(carvel_context *object) { carvel_context_destroy(object); }
 inline void destroy(carvel_scheme *object) { carvel_scheme_destroy(object); }
 inline void destroy(carvel_mesh *object) { carvel_mesh_destroy(object); }
+inline void destroy(carvel_channel *object) { carvel_channel_destroy(object); }
 inline void destroy(carvel_refiner *object) { carvel_refiner_destroy(object); }
 inline void destroy(carvel_hierarchy *object) { carvel_hierarchy_destroy(object); }
 
@@ -676,17 +681,23 @@ inline carvel_status refine(carvel_refiner *refiner, const carvel_context *conte
 {
     return carvel_refiner_refine_f64(refiner, context, input, output, error);
 }
-inline carvel_status refine(const carvel_hierarchy *hierarchy, const carvel_context *context,
-                            std::uint32_t level, const carvel_const_values_f32 *values,
-                            const carvel_values_f32 *out, carvel_error *error)
+inline carvel_status interpolate(const carvel_hierarchy *hierarchy,
+                                 const carvel_context *context, std::uint32_t level,
+                                 carvel_interpolation interpolation,
+                                 const carvel_const_values_f32 *values,
+                                 const carvel_values_f32 *out, carvel_error *error)
 {
-    return carvel_hierarchy_refine_f32(hierarchy, context, level, values, out, error);
+    return carvel_hierarchy_interpolate_f32(
+        hierarchy, context, level, static_cast<std::int32_t>(interpolation), values, out, error);
 }
-inline carvel_status refine(const carvel_hierarchy *hierarchy, const carvel_context *context,
-                            std::uint32_t level, const carvel_const_values_f64 *values,
-                            const carvel_values_f64 *out, carvel_error *error)
+inline carvel_status interpolate(const carvel_hierarchy *hierarchy,
+                                 const carvel_context *context, std::uint32_t level,
+                                 carvel_interpolation interpolation,
+                                 const carvel_const_values_f64 *values,
+                                 const carvel_values_f64 *out, carvel_error *error)
 {
-    return carvel_hierarchy_refine_f64(hierarchy, context, level, values, out, error);
+    return carvel_hierarchy_interpolate_f64(
+        hierarchy, context, level, static_cast<std::int32_t>(interpolation), values, out, error);
 }
 
 } // namespace detail
@@ -800,9 +811,17 @@ struct SchemeDesc {
     Fraction w = {0, 0};
     /* B_SPLINE only. */
     std::uint64_t degree = 0;
-    /* AVERAGING only; read by create and not kept. */
+    /* AVERAGING and PRIMAL only; read by create and not kept. */
     Span<const Fraction> passes = {};
+    /* CATMULL_CLARK and LOOP only. */
+    carvel_creasing creasing = CARVEL_CREASING_UNIFORM;
+    /* CATMULL_CLARK only. */
+    carvel_triangle_rule triangle_rule = CARVEL_TRIANGLE_RULE_CATMULL_CLARK;
+    /* LOOP only. */
+    carvel_loop_weights loop_weights = CARVEL_LOOP_WEIGHTS_LOOP;
 };
+
+class Mesh;
 
 class Scheme : public detail::Handle<carvel_scheme, detail::destroy> {
 public:
@@ -821,10 +840,16 @@ public:
         c.degree = desc.degree;
         c.passes = desc.passes.data();
         c.pass_count = desc.passes.size();
+        c.creasing = static_cast<std::int32_t>(desc.creasing);
+        c.triangle_rule = static_cast<std::int32_t>(desc.triangle_rule);
+        c.loop_weights = static_cast<std::int32_t>(desc.loop_weights);
         carvel_scheme *out = nullptr;
         call.status = carvel_scheme_create(&c, &out, call.error());
         return call.result(Scheme(out));
     }
+
+    /* The faces of a mesh, ascending in its own order, that are holes. */
+    Result<std::vector<std::uint32_t>> try_holes(const Mesh &mesh) const;
 
     /* The smoothing passes that the scheme comes down to, in lowest terms. */
     Result<std::vector<Fraction>> try_passes() const
@@ -841,6 +866,7 @@ public:
 #if CARVEL_HPP_THROWS
     static Scheme create(const SchemeDesc &desc = {}) { return try_create(desc).value(); }
     std::vector<Fraction> passes() const { return try_passes().value(); }
+    std::vector<std::uint32_t> holes(const Mesh &mesh) const { return try_holes(mesh).value(); }
 #endif
 };
 
@@ -888,12 +914,21 @@ struct Faces {
     Span<const std::uint32_t> face_vertices;
 };
 
+/* Arrays are read by create and not kept. */
 struct MeshOptions {
     carvel_non_manifold non_manifold = CARVEL_NON_MANIFOLD_REFUSE;
     /* The faces are the result of a refinement that said so. */
     bool anchored = false;
-    /* Boundary vertices to interpolate; read by create and not kept. */
+    /* Boundary vertices to interpolate. */
     Span<const std::uint32_t> corner_tags = {};
+    /* Creases: two vertices each, and the sharpness of each. */
+    Span<const std::uint32_t> crease_vertices = {};
+    Span<const float> crease_sharpness = {};
+    /* Sharp vertices, and the sharpness of each. */
+    Span<const std::uint32_t> sharp_vertices = {};
+    Span<const float> vertex_sharpness = {};
+    /* Faces that are refined but left out of what is drawn. */
+    Span<const std::uint32_t> holes = {};
 };
 
 class Mesh : public detail::Handle<carvel_mesh, detail::destroy> {
@@ -905,6 +940,10 @@ public:
     static Result<Mesh> try_create(const Faces &faces, const MeshOptions &options = {},
                                    const Context *context = nullptr)
     {
+        const bool pairs = options.crease_vertices.size() == 2 * options.crease_sharpness.size();
+        if (!pairs || options.sharp_vertices.size() != options.vertex_sharpness.size())
+            return Failure(CARVEL_STATUS_LENGTH_MISMATCH,
+                           "a crease is two vertices and a sharpness, a sharp vertex one of each");
         detail::Call call;
         carvel_mesh_desc c = detail::sized<carvel_mesh_desc>();
         c.face_size = faces.face_size;
@@ -918,6 +957,14 @@ public:
         c.anchored = options.anchored ? 1 : 0;
         c.corner_tags = options.corner_tags.data();
         c.corner_tag_count = options.corner_tags.size();
+        c.crease_vertices = options.crease_vertices.data();
+        c.crease_sharpness = options.crease_sharpness.data();
+        c.crease_count = options.crease_sharpness.size();
+        c.sharp_vertices = options.sharp_vertices.data();
+        c.vertex_sharpness = options.vertex_sharpness.data();
+        c.sharp_vertex_count = options.sharp_vertices.size();
+        c.holes = options.holes.data();
+        c.hole_count = options.holes.size();
         carvel_mesh *out = nullptr;
         call.status = carvel_mesh_create(detail::raw(context), &c, &out, call.error());
         return call.result(Mesh(out));
@@ -996,11 +1043,32 @@ public:
     }
     Result<Indices> try_corner_tags() const
     {
-        const Result<Survey> survey = try_survey();
-        if (!survey)
-            return survey.error();
-        return fill<std::uint32_t>(carvel_mesh_corner_tags, survey->corner_tags);
+        return tags<std::uint32_t>(carvel_mesh_corner_tags, &Survey::corner_tags);
     }
+    /* Two vertices for each crease. */
+    Result<Indices> try_crease_vertices() const
+    {
+        return tags<std::uint32_t>(carvel_mesh_crease_vertices, &Survey::creases, 2);
+    }
+    Result<std::vector<float>> try_crease_sharpness() const
+    {
+        return tags<float>(carvel_mesh_crease_sharpness, &Survey::creases);
+    }
+    Result<Indices> try_sharp_vertices() const
+    {
+        return tags<std::uint32_t>(carvel_mesh_sharp_vertices, &Survey::sharp_vertices);
+    }
+    Result<std::vector<float>> try_vertex_sharpness() const
+    {
+        return tags<float>(carvel_mesh_vertex_sharpness, &Survey::sharp_vertices);
+    }
+    Result<Indices> try_holes() const
+    {
+        return tags<std::uint32_t>(carvel_mesh_holes, &Survey::holes);
+    }
+
+    /* False where CARVEL_NON_MANIFOLD_SHARPEN has kept what is not manifold. */
+    bool is_manifold() const noexcept { return carvel_mesh_is_manifold(get()) != 0; }
 
     /* Checks every stored invariant. */
     Result<void> try_validate() const
@@ -1033,6 +1101,11 @@ public:
     Indices face_sources() const { return try_face_sources().value(); }
     Indices vertex_sources() const { return try_vertex_sources().value(); }
     Indices corner_tags() const { return try_corner_tags().value(); }
+    Indices crease_vertices() const { return try_crease_vertices().value(); }
+    std::vector<float> crease_sharpness() const { return try_crease_sharpness().value(); }
+    Indices sharp_vertices() const { return try_sharp_vertices().value(); }
+    std::vector<float> vertex_sharpness() const { return try_vertex_sharpness().value(); }
+    Indices holes() const { return try_holes().value(); }
     void validate() const { try_validate().value(); }
 #endif
 
@@ -1051,6 +1124,16 @@ private:
     }
 
     template <class T>
+    Result<std::vector<T>> tags(Getter<T> getter, std::uint64_t Survey::*size,
+                                std::uint64_t factor = 1) const
+    {
+        const Result<Survey> survey = try_survey();
+        if (!survey)
+            return survey.error();
+        return fill<T>(getter, (*survey).*size * factor);
+    }
+
+    template <class T>
     Result<std::vector<T>> fill(Getter<T> getter, std::uint64_t size) const
     {
         detail::Call call;
@@ -1059,6 +1142,58 @@ private:
             call.status = getter(get(), out.data(), size, call.error());
         return call.result(std::move(out));
     }
+};
+
+inline Result<std::vector<std::uint32_t>> Scheme::try_holes(const Mesh &mesh) const
+{
+    detail::Call call;
+    std::vector<std::uint32_t> out;
+    std::uint64_t count = 0;
+    call.status = carvel_scheme_holes(get(), mesh.get(), nullptr, 0, &count, call.error());
+    if (call.status == CARVEL_STATUS_OK && call.grow(out, count))
+        call.status =
+            carvel_scheme_holes(get(), mesh.get(), out.data(), count, nullptr, call.error());
+    return call.result(std::move(out));
+}
+
+/* ==========================================================================
+ * Channel: values at the corners of a mesh's faces, with seams
+ * ========================================================================== */
+
+class Channel : public detail::Handle<carvel_channel, detail::destroy> {
+public:
+    using Handle::Handle;
+    /* Hands the object over to the caller. */
+    carvel_channel *release() noexcept { return object_.release(); }
+
+    /* The value of every corner, in the order of the faces that the mesh was made of,
+     * and how many values there are. */
+    static Result<Channel> try_create(const Mesh &mesh, Span<const std::uint32_t> indices,
+                                      std::uint64_t value_count,
+                                      carvel_face_varying mode = CARVEL_FACE_VARYING_CORNERS)
+    {
+        detail::Call call;
+        carvel_channel_desc c = detail::sized<carvel_channel_desc>();
+        c.mode = static_cast<std::int32_t>(mode);
+        c.indices = indices.data();
+        c.index_count = indices.size();
+        c.value_count = value_count;
+        carvel_channel *out = nullptr;
+        call.status = carvel_channel_create(mesh.get(), &c, &out, call.error());
+        return call.result(Channel(out));
+    }
+
+    /* The number of edges inside the mesh that are seams. */
+    std::uint64_t seam_edges() const noexcept { return carvel_channel_seam_edges(get()); }
+
+#if CARVEL_HPP_THROWS
+    static Channel create(const Mesh &mesh, Span<const std::uint32_t> indices,
+                          std::uint64_t value_count,
+                          carvel_face_varying mode = CARVEL_FACE_VARYING_CORNERS)
+    {
+        return try_create(mesh, indices, value_count, mode).value();
+    }
+#endif
 };
 
 /* ==========================================================================
@@ -1087,7 +1222,33 @@ inline Result<Bytes> try_predict_bytes(const Mesh &mesh, const Scheme &scheme,
     return call.result(bytes);
 }
 
+namespace detail {
+
+inline Result<std::uint64_t> predict_channel(const carvel_channel *channel,
+                                             const carvel_scheme *scheme, std::uint32_t level)
+{
+    Call call;
+    std::uint64_t values = 0;
+    call.status = carvel_predict_channel(channel, scheme, level, &values, call.error());
+    return call.result(values);
+}
+
+} // namespace detail
+
+/* The number of values that a channel has at a level. */
+inline Result<std::uint64_t> try_predict_channel(const Channel &channel, const Scheme &scheme,
+                                                 std::uint32_t level)
+{
+    return detail::predict_channel(channel.get(), scheme.get(), level);
+}
+
 #if CARVEL_HPP_THROWS
+inline std::uint64_t predict_channel(const Channel &channel, const Scheme &scheme,
+                                     std::uint32_t level)
+{
+    return try_predict_channel(channel, scheme, level).value();
+}
+
 inline Counts predict_counts(const Mesh &mesh, const Scheme &scheme, std::uint32_t level)
 {
     return try_predict_counts(mesh, scheme, level).value();
@@ -1104,6 +1265,24 @@ inline Bytes predict_bytes(const Mesh &mesh, const Scheme &scheme, std::uint32_t
  * Refiner: one-shot, the faces and values of level n
  * ========================================================================== */
 
+/* A channel and its values, a record for each. It is the C struct. */
+template <class T>
+struct ChannelInput : detail::Layouts<T>::ChannelInput {
+    ChannelInput(const Channel &of, const ConstValues<T> &records) noexcept
+        : detail::Layouts<T>::ChannelInput{of.get(), records}
+    {
+    }
+};
+
+/* Where they go: the value of every corner, and the values. It is the C struct. */
+template <class T>
+struct ChannelOutput : detail::Layouts<T>::ChannelOutput {
+    ChannelOutput(Span<std::uint32_t> corners, const Values<T> &records) noexcept
+        : detail::Layouts<T>::ChannelOutput{{corners.data(), corners.size()}, records}
+    {
+    }
+};
+
 /* What to refine; borrowed. */
 template <class T>
 struct RefineInput {
@@ -1113,8 +1292,13 @@ struct RefineInput {
     std::uint32_t levels;
     /* xyz of every vertex. */
     ConstValues<T> positions;
-    /* Further values on vertices, refined by the same rows. */
+    /* Further values on vertices. */
     Span<const ConstValues<T>> attributes = {};
+    /* One of enum carvel_interpolation for each attribute; empty for the scheme's
+     * own rows for all. */
+    Span<const std::int32_t> interpolations = {};
+    /* Values at the corners of faces. */
+    Span<const ChannelInput<T>> channels = {};
 };
 
 /* Where the result goes, in sizes of predict_counts; index arrays may be empty
@@ -1129,8 +1313,18 @@ struct RefineOutput {
     /* `vertices` records of 3, and of each attribute's width. */
     Values<T> positions = {};
     Span<const Values<T>> attributes = {};
+    /* One for each channel of the input, in sizes of predict_channel. */
+    Span<const ChannelOutput<T>> channels = {};
     /* Set by the call: for MeshOptions::anchored, if these faces become a mesh. */
     bool anchored = false;
+};
+
+/* Refined values of a channel. */
+template <class T>
+struct RefinedChannel {
+    /* The value of every corner. */
+    std::vector<std::uint32_t> indices;
+    std::vector<T> values;
 };
 
 /* A refined mesh in vectors. */
@@ -1144,6 +1338,8 @@ struct Refined {
     std::vector<T> positions;
     /* One for each attribute of the input. */
     std::vector<std::vector<T>> attributes;
+    /* One for each channel of the input. */
+    std::vector<RefinedChannel<T>> channels;
     /* For MeshOptions::anchored, if these faces become a mesh. */
     bool anchored = false;
 
@@ -1176,8 +1372,14 @@ public:
     {
         using C = detail::Layouts<T>;
         static_assert(sizeof(ConstValues<T>) == sizeof(typename C::ConstValues) &&
-                          sizeof(Values<T>) == sizeof(typename C::Values),
+                          sizeof(Values<T>) == sizeof(typename C::Values) &&
+                          sizeof(ChannelInput<T>) == sizeof(typename C::ChannelInput) &&
+                          sizeof(ChannelOutput<T>) == sizeof(typename C::ChannelOutput),
                       "carvel: arrays of these are arrays of the C structs");
+        if (!input.interpolations.empty() &&
+            input.interpolations.size() != input.attributes.size())
+            return Failure(CARVEL_STATUS_LENGTH_MISMATCH,
+                           "there is not one interpolation for each attribute");
         detail::Call call;
         auto in = detail::sized<typename C::Input>();
         in.levels = input.levels;
@@ -1186,6 +1388,9 @@ public:
         in.positions = input.positions;
         in.attributes = input.attributes.data();
         in.attribute_count = input.attributes.size();
+        in.interpolations = input.interpolations.data();
+        in.channels = input.channels.data();
+        in.channel_count = input.channels.size();
         auto out = detail::sized<typename C::Output>();
         out.face_sizes = {output.face_sizes.data(), output.face_sizes.size()};
         out.face_offsets = {output.face_offsets.data(), output.face_offsets.size()};
@@ -1194,6 +1399,8 @@ public:
         out.positions = output.positions;
         out.attributes = output.attributes.data();
         out.attribute_count = output.attributes.size();
+        out.channels = output.channels.data();
+        out.channel_count = output.channels.size();
         call.status = detail::refine(get(), detail::raw(context), &in, &out, call.error());
         output.anchored = out.anchored != 0;
         return call.result();
@@ -1207,13 +1414,7 @@ public:
         if (!counts)
             return counts.error();
         /* What the library would refuse is refused before vectors are made. */
-        std::vector<Values<T>> none;
-        for (const ConstValues<T> &attribute : input.attributes)
-            none.emplace_back(nullptr, 0, attribute.width);
-        RefineOutput<T> nowhere;
-        nowhere.positions = Values<T>(nullptr, 0);
-        nowhere.attributes = none;
-        const Result<void> tried = try_refine_into(input, nowhere, context);
+        const Result<void> tried = try_without_room(input, context);
         if (!tried && tried.error().status() != CARVEL_STATUS_BUFFER_TOO_SMALL)
             return tried.error();
         Refined<T> refined;
@@ -1228,6 +1429,18 @@ public:
             room = room && call.grow(own, counts->vertices, attribute.width);
             attributes.emplace_back(own.data(), counts->vertices, attribute.width);
         }
+        std::vector<ChannelOutput<T>> channels;
+        for (const ChannelInput<T> &channel : input.channels) {
+            const Result<std::uint64_t> size =
+                detail::predict_channel(channel.channel, input.scheme.get(), input.levels);
+            if (!size)
+                return size.error();
+            RefinedChannel<T> &own = refined.channels.emplace_back();
+            room = room && call.grow(own.indices, counts->corners) &&
+                   call.grow(own.values, *size, channel.values.width);
+            channels.emplace_back(own.indices,
+                                  Values<T>(own.values.data(), *size, channel.values.width));
+        }
         if (!room)
             return call.result(std::move(refined));
         RefineOutput<T> output;
@@ -1236,6 +1449,7 @@ public:
         output.face_sources = refined.face_sources;
         output.positions = values(refined.positions);
         output.attributes = attributes;
+        output.channels = channels;
         const Result<void> done = try_refine_into(input, output, context);
         if (!done)
             return done.error();
@@ -1277,6 +1491,24 @@ public:
 #endif
 
 private:
+    /* A call without buffers, but with their widths. */
+    template <class T>
+    Result<void> try_without_room(const RefineInput<T> &input, const Context *context)
+    {
+        std::vector<Values<T>> attributes;
+        for (const ConstValues<T> &attribute : input.attributes)
+            attributes.emplace_back(nullptr, 0, attribute.width);
+        std::vector<ChannelOutput<T>> channels;
+        for (const ChannelInput<T> &channel : input.channels)
+            channels.emplace_back(Span<std::uint32_t>(),
+                                  Values<T>(nullptr, 0, channel.values.width));
+        RefineOutput<T> nowhere;
+        nowhere.positions = Values<T>(nullptr, 0);
+        nowhere.attributes = attributes;
+        nowhere.channels = channels;
+        return try_refine_into(input, nowhere, context);
+    }
+
     template <class T>
     static RefineInput<T> input(const Mesh &mesh, const Scheme &scheme, std::uint32_t levels,
                                 const ConstValues<T> &positions)
@@ -1372,20 +1604,35 @@ public:
     Result<void> try_refine_into(std::uint32_t level, const V &control, O &&out,
                                  const Context *context = nullptr) const
     {
-        const ConstValues from = values(control);
-        const Values to = values(out);
-        detail::Call call;
-        call.status =
-            detail::refine(get(), detail::raw(context), level, &from, &to, call.error());
-        return call.result();
+        return try_interpolate_into(level, CARVEL_INTERPOLATION_VERTEX, control, out, context);
     }
 
     /* Into a vector. */
     template <class V>
     auto try_refine(std::uint32_t level, const V &control, const Context *context = nullptr) const
     {
+        return try_interpolate(level, CARVEL_INTERPOLATION_VERTEX, control, context);
+    }
+
+    /* The same by rows of choice. */
+    template <class V, class O>
+    Result<void> try_interpolate_into(std::uint32_t level, carvel_interpolation interpolation,
+                                      const V &control, O &&out,
+                                      const Context *context = nullptr) const
+    {
         const ConstValues from = values(control);
-        return refine_values(level, from, context);
+        const Values to = values(out);
+        detail::Call call;
+        call.status = detail::interpolate(get(), detail::raw(context), level, interpolation, &from,
+                                          &to, call.error());
+        return call.result();
+    }
+    template <class V>
+    auto try_interpolate(std::uint32_t level, carvel_interpolation interpolation, const V &control,
+                         const Context *context = nullptr) const
+    {
+        const ConstValues from = values(control);
+        return interpolate_values(level, interpolation, from, context);
     }
 
     /* Where the vertices and the faces of a level, 1 to the last, come from. */
@@ -1438,6 +1685,18 @@ public:
     {
         return try_refine(level, control, context).value();
     }
+    template <class V, class O>
+    void interpolate_into(std::uint32_t level, carvel_interpolation interpolation,
+                          const V &control, O &&out, const Context *context = nullptr) const
+    {
+        try_interpolate_into(level, interpolation, control, out, context).value();
+    }
+    template <class V>
+    auto interpolate(std::uint32_t level, carvel_interpolation interpolation, const V &control,
+                     const Context *context = nullptr) const
+    {
+        return try_interpolate(level, interpolation, control, context).value();
+    }
     std::vector<Origin> vertex_origins(std::uint32_t level) const
     {
         return try_vertex_origins(level).value();
@@ -1454,8 +1713,10 @@ public:
 
 private:
     template <class T>
-    Result<std::vector<T>> refine_values(std::uint32_t level, const ConstValues<T> &from,
-                                         const Context *context) const
+    Result<std::vector<T>> interpolate_values(std::uint32_t level,
+                                              carvel_interpolation interpolation,
+                                              const ConstValues<T> &from,
+                                              const Context *context) const
     {
         const Result<Counts> counts = try_counts(level);
         if (!counts)
@@ -1464,13 +1725,13 @@ private:
         std::vector<T> out;
         /* What the library would refuse is refused before a vector is made. */
         const Values<T> nowhere(nullptr, 0, from.width);
-        call.status =
-            detail::refine(get(), detail::raw(context), level, &from, &nowhere, call.error());
+        call.status = detail::interpolate(get(), detail::raw(context), level, interpolation, &from,
+                                          &nowhere, call.error());
         if (call.status == CARVEL_STATUS_BUFFER_TOO_SMALL &&
             call.grow(out, counts->vertices, from.width)) {
             const Values<T> to(out.data(), counts->vertices, from.width);
-            call.status =
-                detail::refine(get(), detail::raw(context), level, &from, &to, call.error());
+            call.status = detail::interpolate(get(), detail::raw(context), level, interpolation,
+                                              &from, &to, call.error());
         }
         return call.result(std::move(out));
     }

@@ -83,7 +83,12 @@ impl Soup {
 
     pub fn options(&self) -> BuildOptions<'_> {
         let non_manifold = if self.cut { NonManifold::Cut } else { NonManifold::Error };
-        BuildOptions { non_manifold, anchored: self.anchored, corner_tags: &self.tags, ..BuildOptions::default() }
+        BuildOptions {
+            non_manifold,
+            anchored: self.anchored,
+            corner_tags: &self.tags,
+            ..BuildOptions::default()
+        }
     }
 }
 

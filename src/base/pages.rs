@@ -5,12 +5,15 @@
 
 #![allow(unsafe_code)]
 
-/// Arrays of fewer bytes stay as they are: huge pages would hold little but air.
+/// Arrays of fewer bytes stay as they are.
 #[cfg(target_os = "linux")]
-const LARGE: usize = 4 << 20;
+const LARGE: usize = 256 << 10;
 
 /// Asks for huge pages behind an array that was not touched yet. A system that refuses
 /// says so to nobody: the array is as good as before.
+///
+/// Also for arrays that hold no whole huge page: large ones lie next to each other, and
+/// together they do. So the pages at both ends are counted in, whoever else uses them.
 #[cfg(target_os = "linux")]
 pub(super) fn prefer_huge<T>(array: &mut Vec<T>) {
     const PAGE: usize = 4096;
@@ -19,12 +22,12 @@ pub(super) fn prefer_huge<T>(array: &mut Vec<T>) {
         return;
     }
     let start = array.as_mut_ptr().cast::<u8>();
-    let skipped = start.align_offset(PAGE);
-    let whole = bytes.saturating_sub(skipped) & !(PAGE - 1);
-    // SAFETY: the range is whole pages inside the array's own memory, and the advice
-    // changes no content and no address.
+    let before = start.addr() % PAGE;
+    let whole = (before + bytes).next_multiple_of(PAGE);
+    // SAFETY: the system is told about pages that hold the array's own memory; the advice
+    // changes neither their content nor their address, and a wrong range is refused.
     unsafe {
-        libc::madvise(start.add(skipped).cast(), whole, libc::MADV_HUGEPAGE);
+        libc::madvise(start.wrapping_sub(before).cast(), whole, libc::MADV_HUGEPAGE);
     }
 }
 

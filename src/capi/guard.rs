@@ -18,13 +18,14 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Once;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// The most objects that any call is given.
-const MOST_LENT: usize = 4;
+/// The most objects that a call is given, but for channels.
+const FEW: usize = 4;
 
 /// The objects lent to a call, by their poison flags.
 #[derive(Default)]
 pub(super) struct Call<'a> {
-    lent: [Option<&'a AtomicBool>; MOST_LENT],
+    lent: [Option<&'a AtomicBool>; FEW],
+    more: Vec<&'a AtomicBool>,
 }
 
 /// A context: the caller's, or for NULL one that is the calling thread alone.
@@ -56,8 +57,10 @@ impl<'a> Call<'a> {
     {
         // SAFETY: the caller's contract.
         let handle = unsafe { borrow(object)? };
-        let free = self.lent.iter_mut().find(|slot| slot.is_none());
-        *free.expect("a call is given few objects") = Some(&handle.poisoned);
+        match self.lent.iter_mut().find(|slot| slot.is_none()) {
+            Some(free) => *free = Some(&handle.poisoned),
+            None => self.more.push(&handle.poisoned),
+        }
         Ok(&handle.value)
     }
 
@@ -106,7 +109,7 @@ pub(super) unsafe fn call<'a>(
     }
     let mut call = Call::default();
     let outcome = quietly(|| body(&mut call)).unwrap_or_else(|panic| {
-        for poisoned in call.lent.iter().flatten() {
+        for poisoned in call.lent.iter().flatten().chain(&call.more) {
             poisoned.store(true, Ordering::Relaxed);
         }
         Err(Fault::new(

@@ -6,11 +6,11 @@ use super::mesh::Shared;
 use super::object::{destroy_function, look, object};
 use super::refiner::Precision;
 use super::status::{Result, carvel_status};
-use super::values::{ConstValues, Values};
+use super::values::{CARVEL_INTERPOLATION_VERTEX, ConstValues, Values, interpolation};
 use super::versioned::write;
 use super::{carvel_context, carvel_counts, carvel_error, carvel_mesh, carvel_scheme};
 use crate::base::Context;
-use crate::hierarchy::{Hierarchy, Prediction};
+use crate::hierarchy::{Hierarchy, Interpolation, Prediction};
 use crate::refine::{FaceOrigin, VertexOrigin};
 use std::sync::Arc;
 
@@ -61,7 +61,7 @@ impl From<FaceOrigin> for carvel_origin {
 unsafe fn refine<T: Precision>(
     hierarchy: *const carvel_hierarchy,
     context: *const carvel_context,
-    level: u32,
+    (level, kind): (u32, i32),
     (values, out): (*const ConstValues<T>, *const Values<T>),
     error: *mut carvel_error,
 ) -> carvel_status {
@@ -70,9 +70,10 @@ unsafe fn refine<T: Precision>(
         call(error, |call| {
             let hierarchy = call.object(hierarchy)?;
             let context = call.context(context)?;
+            let kind = interpolation(kind)?;
             check_pointer(values, "values")?;
             check_pointer(out, "out")?;
-            refine_values(hierarchy, &context, level, (values.read(), out.read()))
+            refine_values(hierarchy, &context, (level, kind), (values.read(), out.read()))
         })
     }
 }
@@ -82,9 +83,10 @@ unsafe fn refine<T: Precision>(
 unsafe fn refine_values<T: Precision>(
     hierarchy: &Hierarchy,
     context: &Context,
-    level: u32,
+    (level, kind): (u32, Interpolation),
     (values, out): (ConstValues<T>, Values<T>),
 ) -> Result<()> {
+    hierarchy.scheme().check_interpolation(kind)?;
     let refined = hierarchy.shared_mesh(level)?.vertices() as u64;
     let from = values.check(hierarchy.mesh(0).vertices() as u64, "values".into())?;
     let to = out.check(refined, from.width, "out".into())?;
@@ -98,7 +100,7 @@ unsafe fn refine_values<T: Precision>(
     }
     // SAFETY: the caller's contract; overlap has been checked.
     let (from, width, mut to) = unsafe { (from.read()?, from.width, to.sink()?) };
-    hierarchy.refine(context, level, from.values(), width, to.values())?;
+    hierarchy.interpolate(context, level, kind, from.values(), width, to.values())?;
     // SAFETY: as above.
     unsafe { to.finish() };
     Ok(())
@@ -218,31 +220,41 @@ pub unsafe extern "C" fn carvel_hierarchy_mesh(
     }
 }
 
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn carvel_hierarchy_refine_f32(
-    hierarchy: *const carvel_hierarchy,
-    context: *const carvel_context,
-    level: u32,
-    values: *const ConstValues<f32>,
-    out: *const Values<f32>,
-    error: *mut carvel_error,
-) -> carvel_status {
-    // SAFETY: the header's contract.
-    unsafe { refine(hierarchy, context, level, (values, out), error) }
+/// The functions that exist for each number type.
+macro_rules! twins {
+    ($number:ty, $refine:ident, $interpolate:ident) => {
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $refine(
+            hierarchy: *const carvel_hierarchy,
+            context: *const carvel_context,
+            level: u32,
+            values: *const ConstValues<$number>,
+            out: *const Values<$number>,
+            error: *mut carvel_error,
+        ) -> carvel_status {
+            let what = (level, CARVEL_INTERPOLATION_VERTEX);
+            // SAFETY: the header's contract.
+            unsafe { refine(hierarchy, context, what, (values, out), error) }
+        }
+
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $interpolate(
+            hierarchy: *const carvel_hierarchy,
+            context: *const carvel_context,
+            level: u32,
+            interpolation: i32,
+            values: *const ConstValues<$number>,
+            out: *const Values<$number>,
+            error: *mut carvel_error,
+        ) -> carvel_status {
+            // SAFETY: the header's contract.
+            unsafe { refine(hierarchy, context, (level, interpolation), (values, out), error) }
+        }
+    };
 }
 
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn carvel_hierarchy_refine_f64(
-    hierarchy: *const carvel_hierarchy,
-    context: *const carvel_context,
-    level: u32,
-    values: *const ConstValues<f64>,
-    out: *const Values<f64>,
-    error: *mut carvel_error,
-) -> carvel_status {
-    // SAFETY: the header's contract.
-    unsafe { refine(hierarchy, context, level, (values, out), error) }
-}
+twins!(f32, carvel_hierarchy_refine_f32, carvel_hierarchy_interpolate_f32);
+twins!(f64, carvel_hierarchy_refine_f64, carvel_hierarchy_interpolate_f64);
 
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn carvel_hierarchy_vertex_origins(

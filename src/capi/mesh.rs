@@ -1,17 +1,13 @@
 //! `carvel_mesh`: the topology of a mesh, checked.
 
-use super::buffer::{input, list, output};
+use super::buffer::{list, output};
+use super::carvel_error;
 use super::guard::{Call, call};
-use super::object::{destroy_function, object};
-use super::status::{
-    CARVEL_STATUS_LENGTH_MISMATCH, CARVEL_STATUS_TOO_LARGE, Fault, Result, carvel_status,
-};
-use super::versioned::{check, init_function, initial, read, versioned, write};
-use super::{carvel_context, carvel_error};
-use crate::base::{Context, NONE, memory};
-use crate::mesh::{BuildOptions, Built, Mesh, NonManifold, Survey, build};
+use super::object::{destroy_function, look, object};
+use super::status::{Fault, Result, carvel_status};
+use super::versioned::{check, init_function, initial, versioned, write};
+use crate::mesh::{Built, Mesh, Survey};
 use crate::refine::Counts;
-use std::borrow::Cow;
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
@@ -24,148 +20,16 @@ pub(super) struct Shared {
     vertex_sources: Option<Vec<u32>>,
 }
 
+impl From<Built> for Shared {
+    fn from(Built { mesh, vertex_source }: Built) -> Self {
+        Self { mesh: mesh.into(), vertex_sources: vertex_source }
+    }
+}
+
 impl Shared {
     /// A mesh whose vertices and faces are their own sources.
     pub(super) fn level(mesh: Arc<Mesh>) -> Self {
         Self { mesh, vertex_sources: None }
-    }
-}
-
-pub const CARVEL_NON_MANIFOLD_REFUSE: i32 = 0;
-pub const CARVEL_NON_MANIFOLD_CUT: i32 = 1;
-
-versioned! {
-    pub struct carvel_mesh_desc {
-        pub struct_size: u32,
-        pub face_size: u32,
-        pub vertex_count: u64,
-        pub face_count: u64,
-        pub face_sizes: *const u32,
-        pub face_offsets: *const u32,
-        pub face_vertices: *const u32,
-        pub face_vertex_count: u64,
-        pub non_manifold: i32,
-        pub anchored: i32,
-        pub corner_tags: *const u32,
-        pub corner_tag_count: u64,
-    }
-}
-
-impl carvel_mesh_desc {
-    /// Builds the mesh described.
-    ///
-    /// # Safety
-    /// The pointers lead to as many entries as the counts say.
-    unsafe fn build(&self, context: &Context) -> Result<Shared> {
-        self.check_counts()?;
-        if self.face_sizes.is_null() {
-            // Sizes are made here; what the rest takes is checked when it begins.
-            context.check_memory(4 * self.face_count)?;
-        }
-        // SAFETY: the caller's contract.
-        let sizes = unsafe { self.sizes()? };
-        // SAFETY: the caller's contract.
-        let indices =
-            unsafe { input(self.face_vertices, self.face_vertex_count, "face_vertices")? };
-        // SAFETY: the caller's contract.
-        let tags = unsafe { input(self.corner_tags, self.corner_tag_count, "corner_tags")? };
-        let options = BuildOptions {
-            non_manifold: non_manifold(self.non_manifold)?,
-            anchored: flag(self.anchored, "anchored")?,
-            corner_tags: tags,
-            ..BuildOptions::default()
-        };
-        let vertices = self.vertex_count as usize;
-        let Built { mesh, vertex_source } = build(context, vertices, &sizes, indices, &options)?;
-        Ok(Shared { mesh: mesh.into(), vertex_sources: vertex_source })
-    }
-
-    /// No array is longer than what indices can name.
-    fn check_counts(&self) -> Result<()> {
-        let counts = [
-            ("vertex_count", self.vertex_count),
-            ("face_count", self.face_count),
-            ("face_vertex_count", self.face_vertex_count),
-            ("corner_tag_count", self.corner_tag_count),
-        ];
-        match counts.iter().find(|(_, count)| *count >= u64::from(NONE)) {
-            Some((name, count)) => Err(Fault::new(
-                CARVEL_STATUS_TOO_LARGE,
-                format!("{name}: {count} does not fit 32-bit indices"),
-            )),
-            None => Ok(()),
-        }
-    }
-
-    /// The size of every face, from whichever layout is given.
-    ///
-    /// # Safety
-    /// As [`Self::build`].
-    unsafe fn sizes<'a>(&self) -> Result<Cow<'a, [u32]>> {
-        let given = [self.face_size != 0, !self.face_sizes.is_null(), !self.face_offsets.is_null()];
-        match given {
-            // SAFETY: the caller's contract.
-            [false, true, false] => unsafe {
-                Ok(input(self.face_sizes, self.face_count, "face_sizes")?.into())
-            },
-            // SAFETY: the caller's contract.
-            [false, false, true] => unsafe {
-                let offsets = input(self.face_offsets, self.face_count + 1, "face_offsets")?;
-                Ok(self.sizes_from(offsets)?.into())
-            },
-            [true, false, false] => Ok(self.equal_sizes()?.into()),
-            [false, false, false] if self.face_count == 0 => Ok([].as_slice().into()),
-            _ => Err(Fault::out_of_range(
-                "exactly one of face_sizes, face_offsets and face_size must be given",
-            )),
-        }
-    }
-
-    fn equal_sizes(&self) -> Result<Vec<u32>> {
-        self.check_corners(self.face_count * u64::from(self.face_size))?;
-        Ok(memory::filled(self.face_size, self.face_count as usize)?)
-    }
-
-    fn sizes_from(&self, offsets: &[u32]) -> Result<Vec<u32>> {
-        let falling = offsets.windows(2).position(|pair| pair[0] > pair[1]);
-        if let (1.., _) | (_, Some(_)) = (offsets[0], falling) {
-            let at = falling.map_or(0, |face| face + 1);
-            let offset = offsets[at];
-            return Err(Fault::out_of_range(format!(
-                "face_offsets[{at}] is {offset}: offsets start at 0 and never fall"
-            )));
-        }
-        self.check_corners(u64::from(offsets[offsets.len() - 1]))?;
-        Ok(memory::collect(offsets.windows(2).map(|pair| pair[1] - pair[0]))?)
-    }
-
-    fn check_corners(&self, corners: u64) -> Result<()> {
-        if corners == self.face_vertex_count {
-            return Ok(());
-        }
-        Err(Fault::new(
-            CARVEL_STATUS_LENGTH_MISMATCH,
-            format!(
-                "the faces have {corners} corners, but face_vertex_count is {}",
-                self.face_vertex_count
-            ),
-        ))
-    }
-}
-
-fn non_manifold(policy: i32) -> Result<NonManifold> {
-    match policy {
-        CARVEL_NON_MANIFOLD_REFUSE => Ok(NonManifold::Error),
-        CARVEL_NON_MANIFOLD_CUT => Ok(NonManifold::Cut),
-        other => Err(Fault::out_of_range(format!("there is no non-manifold policy {other}"))),
-    }
-}
-
-fn flag(value: i32, name: &str) -> Result<bool> {
-    match value {
-        0 => Ok(false),
-        1 => Ok(true),
-        other => Err(Fault::out_of_range(format!("{name} is {other}, not 0 or 1"))),
     }
 }
 
@@ -220,6 +84,9 @@ versioned! {
         pub euler_characteristic: i64,
         pub corner_tags: u64,
         pub bytes: u64,
+        pub creases: u64,
+        pub sharp_vertices: u64,
+        pub holes: u64,
     }
 }
 
@@ -234,6 +101,9 @@ impl carvel_survey {
             euler_characteristic: survey.euler_characteristic,
             corner_tags: mesh.corner_tags().len() as u64,
             bytes: mesh.bytes(),
+            creases: mesh.creases().len() as u64,
+            sharp_vertices: mesh.sharp_vertices().len() as u64,
+            holes: mesh.holes().len() as u64,
             ..initial()
         })
     }
@@ -301,26 +171,6 @@ unsafe fn fill<T: Copy>(
     };
     // SAFETY: the header's contract.
     unsafe { call(error, body) }
-}
-
-init_function!(carvel_mesh_desc_init, carvel_mesh_desc);
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn carvel_mesh_create(
-    context: *const carvel_context,
-    desc: *const carvel_mesh_desc,
-    out: *mut *mut carvel_mesh,
-    error: *mut carvel_error,
-) -> carvel_status {
-    // SAFETY: the header's contract.
-    unsafe {
-        call(error, |call| {
-            call.create(out, |call| {
-                let context = call.context(context)?;
-                read(desc)?.build(&context)
-            })
-        })
-    }
 }
 
 destroy_function!(carvel_mesh_destroy, carvel_mesh);
@@ -418,6 +268,22 @@ arrays! {
         };
     carvel_mesh_corner_tags: u32, |mesh| mesh.corner_tags().len(),
         |shared, out| out.copy_from_slice(shared.mesh.corner_tags());
+    carvel_mesh_crease_vertices: u32, |mesh| 2 * mesh.creases().len(),
+        |shared, out| write_all(shared.mesh.creases().flat_map(|crease| crease.vertices), out);
+    carvel_mesh_crease_sharpness: f32, |mesh| mesh.creases().len(),
+        |shared, out| write_all(shared.mesh.creases().map(|crease| crease.sharpness), out);
+    carvel_mesh_sharp_vertices: u32, |mesh| mesh.sharp_vertices().len(),
+        |shared, out| write_all(shared.mesh.sharp_vertices().map(|tag| tag.vertex), out);
+    carvel_mesh_vertex_sharpness: f32, |mesh| mesh.sharp_vertices().len(),
+        |shared, out| write_all(shared.mesh.sharp_vertices().map(|tag| tag.sharpness), out);
+    carvel_mesh_holes: u32, |mesh| mesh.holes().len(),
+        |shared, out| out.copy_from_slice(shared.mesh.holes());
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn carvel_mesh_is_manifold(mesh: *const carvel_mesh) -> i32 {
+    // SAFETY: the header's contract.
+    unsafe { look(mesh) }.map_or(0, |handle| handle.value.mesh.is_manifold().into())
 }
 
 #[unsafe(no_mangle)]

@@ -1,8 +1,8 @@
 //! The C interface: `include/carvel.h`, object by object.
 //!
-//! A file for each object of the header, in its order; each function checks what
-//! it is given, borrows, calls the kernel once and writes out. The rest is what
-//! they share:
+//! A file for each object of the header, in its order, and one for each description
+//! that is long (`mesh_desc`, `refine_desc`); each function checks what it is given,
+//! borrows, calls the kernel once and writes out. The rest is what they share:
 //!
 //! | file | its idea |
 //! |---|---|
@@ -20,24 +20,30 @@
 #![allow(non_camel_case_types, missing_docs, clippy::missing_safety_doc)]
 
 mod buffer;
+mod channel;
 mod context;
 mod error;
 mod guard;
 mod hierarchy;
 mod mesh;
+mod mesh_desc;
 mod object;
 mod predict;
+mod refine_desc;
 mod refiner;
 mod scheme;
 mod status;
 mod values;
 mod versioned;
 
+pub use channel::*;
 pub use context::*;
 pub use error::*;
 pub use hierarchy::*;
 pub use mesh::*;
+pub use mesh_desc::*;
 pub use predict::*;
+pub use refine_desc::*;
 pub use refiner::*;
 pub use scheme::*;
 pub use status::*;

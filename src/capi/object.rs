@@ -5,7 +5,8 @@
 //! | `carvel_error` | box, one thread at a time | – |
 //! | `carvel_context` | box | by reference |
 //! | `carvel_scheme` | box | by reference; a hierarchy clones it |
-//! | `carvel_mesh` | box around a counted reference | a hierarchy holds another |
+//! | `carvel_mesh` | box around a counted reference | hierarchies and channels hold others |
+//! | `carvel_channel` | box | by reference |
 //! | `carvel_refiner` | box around a lock | one call at a time |
 //! | `carvel_hierarchy` | box | by reference |
 

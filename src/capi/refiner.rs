@@ -1,17 +1,21 @@
 //! `carvel_refiner`: one-shot, the faces and values of level n.
 
-use super::buffer::{Name, Span, Target, check_overlap, input};
+use super::buffer::{Span, Target, check_overlap};
+use super::channel::{ChannelInput, ChannelOutput, Lent};
 use super::guard::{Call, call};
 use super::mesh::write_offsets;
 use super::object::{destroy_function, look, object, poisoned};
-use super::status::{
-    CARVEL_STATUS_BUSY, CARVEL_STATUS_LENGTH_MISMATCH, Fault, Result, carvel_status,
+use super::refine_desc::{
+    AllRecords, RefineInput, RefineOutput, channel_bytes, input_copies, targets,
 };
+use super::status::{CARVEL_STATUS_BUSY, Fault, Result, carvel_status};
 use super::values::{ConstValues, Records, Sink, Source, Values, carvel_indices};
-use super::versioned::{init_function, read, versioned, write_field};
-use super::{carvel_context, carvel_error, carvel_mesh, carvel_scheme};
+use super::versioned::{init_function, read, write_field};
+use super::{carvel_context, carvel_error};
 use crate::base::{Context, Scalar};
-use crate::hierarchy::{Attribute, Output, Prediction, Refiner, Task};
+use crate::hierarchy::{
+    self, Attribute, FaceVarying, Interpolation, Output, Prediction, Refiner, Task,
+};
 use crate::mesh::Mesh;
 use crate::scheme::Scheme;
 use std::mem::offset_of;
@@ -27,9 +31,6 @@ pub(super) struct Guarded {
     /// Scratch memory held, as of the last call that ended.
     bytes: AtomicU64,
 }
-
-/// The most attributes that one call refines.
-const MOST_ATTRIBUTES: u64 = 256;
 
 /// A refiner for each number type.
 #[derive(Default)]
@@ -59,114 +60,6 @@ impl Precision for f64 {
     fn refiner(all: &mut Refiners) -> &mut Refiner<Self> {
         &mut all.double
     }
-}
-
-versioned! {
-    pub struct RefineInput<T> as "carvel_refine_input" {
-        pub struct_size: u32,
-        pub levels: u32,
-        pub mesh: *const carvel_mesh,
-        pub scheme: *const carvel_scheme,
-        pub positions: ConstValues<T>,
-        pub attributes: *const ConstValues<T>,
-        pub attribute_count: u64,
-    }
-}
-
-versioned! {
-    pub struct RefineOutput<T> as "carvel_refine_output" {
-        pub struct_size: u32,
-        pub anchored: i32,
-        pub face_sizes: carvel_indices,
-        pub face_offsets: carvel_indices,
-        pub face_vertices: carvel_indices,
-        pub face_sources: carvel_indices,
-        pub positions: Values<T>,
-        pub attributes: *const Values<T>,
-        pub attribute_count: u64,
-    }
-}
-
-pub type carvel_refine_input_f32 = RefineInput<f32>;
-pub type carvel_refine_input_f64 = RefineInput<f64>;
-pub type carvel_refine_output_f32 = RefineOutput<f32>;
-pub type carvel_refine_output_f64 = RefineOutput<f64>;
-
-/// Records for positions and attributes, positions first.
-type AllRecords<P> = Vec<Records<P>>;
-
-impl<T: Scalar> RefineInput<T> {
-    /// Checks all inputs.
-    ///
-    /// # Safety
-    /// `attributes` leads to as many entries as the count says.
-    unsafe fn check(&self, mesh: &Mesh) -> Result<AllRecords<*const T>> {
-        if self.attribute_count > MOST_ATTRIBUTES {
-            return Err(Fault::out_of_range(format!(
-                "{} attributes: the limit is {MOST_ATTRIBUTES}",
-                self.attribute_count
-            )));
-        }
-        // SAFETY: the caller's contract.
-        let attributes =
-            unsafe { input(self.attributes, self.attribute_count, "input.attributes")? };
-        let vertices = mesh.vertices() as u64;
-        let mut records = vec![self.positions.check(vertices, "input.positions".into())?];
-        if records[0].width != 3 {
-            return Err(Fault::new(
-                CARVEL_STATUS_LENGTH_MISMATCH,
-                format!("input.positions: the width is {}, not 3", records[0].width),
-            ));
-        }
-        for (i, attribute) in attributes.iter().enumerate() {
-            let name = Name { text: "input.attributes", index: Some(i) };
-            records.push(attribute.check(vertices, name)?);
-        }
-        Ok(records)
-    }
-}
-
-impl<T: Scalar> RefineOutput<T> {
-    /// The attributes, one for each of the input.
-    ///
-    /// # Safety
-    /// `attributes` leads to as many entries as the count says.
-    unsafe fn attributes<'a>(&self, expected: usize) -> Result<&'a [Values<T>]> {
-        if self.attribute_count != expected as u64 {
-            return Err(Fault::new(
-                CARVEL_STATUS_LENGTH_MISMATCH,
-                format!("{} output.attributes for {expected} of the input", self.attribute_count),
-            ));
-        }
-        // SAFETY: the caller's contract.
-        unsafe { input(self.attributes, self.attribute_count, "output.attributes") }
-    }
-
-    /// Bytes of the copies of records that are not one after the other.
-    fn copies(&self, attributes: &[Values<T>], vertices: u64) -> u64 {
-        let all = std::iter::once(&self.positions).chain(attributes);
-        all.map(|values| values.copy_bytes(vertices)).fold(0, u64::saturating_add)
-    }
-
-    /// Checks all outputs of values.
-    fn check(
-        &self,
-        attributes: &[Values<T>],
-        vertices: u64,
-        inputs: &AllRecords<*const T>,
-    ) -> Result<AllRecords<*mut T>> {
-        let mut records = vec![self.positions.check(vertices, 3, "output.positions".into())?];
-        for (i, (attribute, from)) in attributes.iter().zip(&inputs[1..]).enumerate() {
-            let name = Name { text: "output.attributes", index: Some(i) };
-            records.push(attribute.check(vertices, from.width, name)?);
-        }
-        Ok(records)
-    }
-}
-
-/// Bytes of the copies of records that are not one after the other.
-fn input_copies<T: Scalar>(records: &AllRecords<*const T>) -> u64 {
-    records.iter().map(Records::copy_bytes::<T>).fold(0, u64::saturating_add)
 }
 
 /// The index arrays of an output.
@@ -216,8 +109,12 @@ struct Job<'a, T> {
     scheme: &'a Scheme,
     plan: Prediction,
     inputs: AllRecords<*const T>,
+    interpolations: Vec<Interpolation>,
+    channels: Vec<Lent<'a>>,
     outputs: AllRecords<*mut T>,
     faces: Faces,
+    /// Of the channels.
+    indices: Vec<Target<u32>>,
 }
 
 impl<'a, T: Precision> Job<'a, T> {
@@ -233,9 +130,10 @@ impl<'a, T: Precision> Job<'a, T> {
     ) -> Result<Self> {
         // SAFETY: the caller's contract.
         let (mesh, scheme) =
-            unsafe { (&*call.object(input.mesh)?.mesh, call.object(input.scheme)?) };
+            unsafe { (&call.object(input.mesh)?.mesh, call.object(input.scheme)?) };
         // SAFETY: the caller's contract.
-        let inputs = unsafe { input.check(mesh)? };
+        let (mut inputs, interpolations) =
+            unsafe { (input.check(mesh)?, input.interpolations(scheme)?) };
         let plan = Prediction::new(mesh, scheme, input.levels)?;
         plan.check_index_type()?;
         // What no buffer can change comes before the buffers, as the header says.
@@ -243,12 +141,17 @@ impl<'a, T: Precision> Job<'a, T> {
         let width: usize = inputs.iter().map(|records| records.width).sum();
         let scratch = plan.refiner_bytes(width as u64, T::BYTES, faces.sources.is_given());
         // SAFETY: the caller's contract.
-        let attributes = unsafe { output.attributes(inputs.len() - 1)? };
-        let copies = output.copies(attributes, plan.last().vertices);
-        let copies = copies.saturating_add(input_copies(&inputs));
-        context.check_memory(scratch.saturating_add(copies))?;
-        let outputs = output.check(attributes, plan.last().vertices, &inputs)?;
-        let job = Self { mesh, scheme, plan, inputs, outputs, faces };
+        let channels = unsafe { input.channels(call, (mesh, scheme), &mut inputs)? };
+        let others = channel_bytes(&channels, &inputs[inputs.len() - channels.len()..]);
+        // SAFETY: the caller's contract.
+        let lists = unsafe { output.lists(input)? };
+        let copies = output.copies(&lists, plan.last().vertices, &channels);
+        let parts = [scratch, others, copies, input_copies(&inputs)];
+        context.check_memory(parts.into_iter().fold(0, u64::saturating_add))?;
+        let outputs = output.check(&lists, plan.last().vertices, (&inputs, &channels))?;
+        let indices = targets(&lists, &channels);
+        let job =
+            Self { mesh, scheme, plan, inputs, interpolations, channels, outputs, faces, indices };
         job.check_overlap(places, input, output)?;
         Ok(job)
     }
@@ -260,17 +163,25 @@ impl<'a, T: Precision> Job<'a, T> {
         input: &RefineInput<T>,
         output: &RefineOutput<T>,
     ) -> Result<()> {
-        // Both lists have one entry for each attribute.
-        let count = self.inputs.len() - 1;
+        // The lists of input and output have the same lengths.
+        let (channels, attributes) = (self.channels.len(), self.interpolations.len());
         let (read, written) = (size_of::<ConstValues<T>>(), size_of::<Values<T>>());
+        let (taken, given) = (size_of::<ChannelInput<T>>(), size_of::<ChannelOutput<T>>());
+        let kinds = if input.interpolations.is_null() { 0 } else { attributes * size_of::<i32>() };
         let lists = [
-            Span::of(input.attributes, count * read, false, "input.attributes"),
-            Span::of(output.attributes, count * written, false, "output.attributes"),
+            Span::of(input.attributes, attributes * read, false, "input.attributes"),
+            Span::of(input.interpolations, kinds, false, "input.interpolations"),
+            Span::of(input.channels, channels * taken, false, "input.channels"),
+            Span::of(output.attributes, attributes * written, false, "output.attributes"),
+            Span::of(output.channels, channels * given, false, "output.channels"),
         ];
-        let values = self.inputs.len() + self.outputs.len();
-        let mut spans = Vec::with_capacity(values + 8);
+        let values = self.inputs.len() + self.outputs.len() + channels;
+        let mut spans = Vec::with_capacity(values + 11);
         spans.extend(places.into_iter().chain(lists));
         self.faces.add_spans(&mut spans)?;
+        for indices in &self.indices {
+            spans.push(indices.span()?);
+        }
         spans.extend(self.inputs.iter().map(Records::read_span));
         spans.extend(self.outputs.iter().map(Records::write_span));
         check_overlap(&spans)
@@ -283,15 +194,17 @@ impl<'a, T: Precision> Job<'a, T> {
     unsafe fn run(self, context: &Context, refiner: &mut Refiner<T>) -> Result<bool> {
         // SAFETY: the caller's contract; overlap has been checked.
         let (inputs, mut sinks) = unsafe { (self.sources()?, self.sinks()?) };
-        let attributes: Vec<_> = inputs.iter().zip(&self.inputs).skip(1).map(attribute).collect();
+        let attributes = self.attributes(&inputs);
+        let channels = self.face_varying(&inputs);
         let levels = self.plan.levels().len() as u32 - 1;
         let mut task = Task::new(self.mesh, self.scheme, levels, inputs[0].values());
-        task.attributes = &attributes;
+        (task.attributes, task.channels) = (&attributes, &channels);
         // SAFETY: as above.
         let mut offsets = unsafe { wanted(&self.faces.offsets) };
         // SAFETY: as above.
         let mut sizes = unsafe { wanted(&self.faces.sizes) };
         let (positions, rest) = sinks.split_at_mut(1);
+        let (others, last) = rest.split_at_mut(attributes.len());
         // SAFETY: as above.
         let (face_vertices, face_sources) =
             unsafe { (wanted(&self.faces.vertices), wanted(&self.faces.sources)) };
@@ -301,9 +214,10 @@ impl<'a, T: Precision> Job<'a, T> {
             face_sizes: sizes.as_deref_mut().or_else(|| Some(&mut offsets.as_deref_mut()?[1..])),
             face_vertices,
             face_sources,
-            channels: Vec::new(),
             positions: positions[0].values(),
-            attributes: rest.iter_mut().map(Sink::values).collect(),
+            attributes: others.iter_mut().map(Sink::values).collect(),
+            // SAFETY: as above.
+            channels: unsafe { channel_outputs(&self.indices, last) },
         };
         refiner.run(context, &task, &self.plan, output)?;
         let anchored = task.anchored();
@@ -315,6 +229,23 @@ impl<'a, T: Precision> Job<'a, T> {
             unsafe { sink.finish() };
         }
         Ok(anchored)
+    }
+
+    fn attributes<'s>(&self, inputs: &'s [Source<T>]) -> Vec<Attribute<'s, T>> {
+        let listed = inputs.iter().zip(&self.inputs).skip(1).zip(&self.interpolations);
+        let attribute = |((source, records), &interpolation): ((&'s Source<T>, &Records<_>), _)| {
+            Attribute { values: source.values(), width: records.width, interpolation }
+        };
+        listed.map(attribute).collect()
+    }
+
+    fn face_varying<'s>(&'s self, inputs: &'s [Source<T>]) -> Vec<FaceVarying<'s, T>> {
+        let first = inputs.len() - self.channels.len();
+        let listed = inputs[first..].iter().zip(&self.inputs[first..]).zip(&self.channels);
+        let values = |((source, records), lent): ((&'s Source<T>, &Records<_>), &'s Lent)| {
+            FaceVarying { channel: lent.channel, values: source.values(), width: records.width }
+        };
+        listed.map(values).collect()
     }
 
     /// # Safety
@@ -332,8 +263,21 @@ impl<'a, T: Precision> Job<'a, T> {
     }
 }
 
-fn attribute<'s, T, P>((source, records): (&'s Source<T>, &Records<P>)) -> Attribute<'s, T> {
-    Attribute::vertex(source.values(), records.width)
+/// Where the channels go.
+///
+/// # Safety
+/// As [`Target::slice`], for all indices.
+unsafe fn channel_outputs<'s, T: Scalar>(
+    indices: &[Target<u32>],
+    values: &'s mut [Sink<'_, T>],
+) -> Vec<hierarchy::ChannelOutput<'s, T>> {
+    let pairs = indices.iter().zip(values);
+    let output = |(indices, values): (&Target<u32>, &'s mut Sink<'_, T>)| {
+        // SAFETY: the caller's contract.
+        let indices = unsafe { indices.slice() };
+        hierarchy::ChannelOutput { indices, values: values.values() }
+    };
+    pairs.map(output).collect()
 }
 
 /// Offsets from the sizes, which stand in the offsets themselves if there is no

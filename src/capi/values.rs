@@ -7,7 +7,7 @@ use super::status::{
     Result,
 };
 use crate::base::{Scalar, memory};
-use crate::hierarchy::WIDEST;
+use crate::hierarchy::{Interpolation, WIDEST};
 
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
@@ -31,6 +31,17 @@ pub type carvel_const_values_f32 = ConstValues<f32>;
 pub type carvel_const_values_f64 = ConstValues<f64>;
 pub type carvel_values_f32 = Values<f32>;
 pub type carvel_values_f64 = Values<f64>;
+
+pub const CARVEL_INTERPOLATION_VERTEX: i32 = 0;
+pub const CARVEL_INTERPOLATION_VARYING: i32 = 1;
+
+pub(super) fn interpolation(kind: i32) -> Result<Interpolation> {
+    match kind {
+        CARVEL_INTERPOLATION_VERTEX => Ok(Interpolation::Vertex),
+        CARVEL_INTERPOLATION_VARYING => Ok(Interpolation::Varying),
+        other => Err(Fault::out_of_range(format!("there is no interpolation {other}"))),
+    }
+}
 
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]

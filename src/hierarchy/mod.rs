@@ -5,6 +5,8 @@
 
 mod channels;
 mod columns;
+mod crease_angle;
+mod creases_left;
 mod dual_step;
 mod kernel;
 mod levels;
@@ -16,6 +18,8 @@ mod step;
 mod values;
 
 pub use channels::{ChannelOutput, FaceVarying, RefinedChannel};
+pub use crease_angle::creases_by_angle;
+pub use creases_left::creases_left;
 pub use levels::Hierarchy;
 pub use predict::Prediction;
 pub use refiner::{Attribute, Output, Refined, Refiner, Task};

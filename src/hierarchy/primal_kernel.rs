@@ -17,22 +17,33 @@ pub(super) fn face_values<T: Scalar, const W: usize>(
     out: &mut [Value<T, W>],
 ) {
     let parent = split.parent();
-    let quads = parent.layout.irregular_faces();
+    let layout = &parent.layout;
+    let odd = if layout.side() == 4 { layout.irregular_faces() } else { layout.faces() };
+    let (others, quads) = out.split_at_mut((odd.saturating_sub(first) as usize).min(out.len()));
+    for (face, slot) in (first..).zip(others) {
+        let corners = layout.face(face);
+        let vertices = &parent.vert[corners.start as usize..corners.end as usize];
+        *slot = mean(values, vertices);
+    }
+    let start = layout.irregular_corners() + 4 * (first.max(odd) - odd);
+    let vertices = parent.vert[start.min(layout.corners()) as usize..].as_chunks::<4>().0;
     let at = |v: u32| widen::<T, W>(&values[v as usize]);
     let quarter = T::from_f64(0.25);
-    for (face, slot) in (first..).zip(out) {
-        let corners = parent.layout.face(face);
-        let vertices = &parent.vert[corners.start as usize..corners.end as usize];
-        *slot = match *vertices {
-            [a, b, c, d] if face >= quads => {
-                narrow::<T, W>(((at(a) + at(b)) + (at(c) + at(d))) * quarter)
-            }
-            _ => {
-                let sum = vertices[1..].iter().fold(at(vertices[0]), |sum, &v| sum + at(v));
-                narrow::<T, W>(sum * T::from_f64(1.0 / vertices.len() as f64))
-            }
-        };
+    for (slot, &[a, b, c, d]) in quads.iter_mut().zip(vertices) {
+        *slot = narrow::<T, W>(((at(a) + at(b)) + (at(c) + at(d))) * quarter);
     }
+}
+
+/// The mean of some vertices.
+fn mean<T: Scalar, const W: usize>(values: &[Value<T, W>], vertices: &[u32]) -> Value<T, W> {
+    let mut sum = [T::default(); W];
+    for &v in vertices {
+        for (sum, &x) in sum.iter_mut().zip(&values[v as usize]) {
+            *sum = *sum + x;
+        }
+    }
+    let share = T::from_f64(1.0 / vertices.len() as f64);
+    sum.map(|x| x * share)
 }
 
 /// Smooth new vertices of edges.

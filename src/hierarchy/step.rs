@@ -21,7 +21,7 @@ pub enum Interpolation {
 
 impl Scheme {
     /// Refuses rows that the scheme does not have.
-    pub(super) fn check_interpolation(&self, interpolation: Interpolation) -> Result<()> {
+    pub(crate) fn check_interpolation(&self, interpolation: Interpolation) -> Result<()> {
         if interpolation == Interpolation::Vertex || self.split() != SplitKind::Corner {
             return Ok(());
         }

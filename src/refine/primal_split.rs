@@ -29,6 +29,33 @@ pub(crate) enum Pieces {
     Triangles,
 }
 
+impl Pieces {
+    /// The sides of a child face.
+    #[inline(always)]
+    pub(crate) fn sides(self) -> u32 {
+        match self {
+            Self::Quads => 4,
+            Self::Triangles => 3,
+        }
+    }
+
+    /// The child corner from the old vertex of a corner to the middle of its edge.
+    #[inline(always)]
+    pub(crate) fn start_half(self, corner: u32) -> u32 {
+        match self {
+            Self::Quads => 4 * corner,
+            Self::Triangles => 3 * corner + 3 * (corner / 3),
+        }
+    }
+
+    /// The child corner from the middle of an edge to its end, the vertex of the next
+    /// corner.
+    #[inline(always)]
+    pub(crate) fn end_half(self, next: u32) -> u32 {
+        self.start_half(next) + self.sides() - 1
+    }
+}
+
 /// A child vertex by what it comes from.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum PrimalChild {
@@ -184,20 +211,13 @@ impl<'a> PrimalSplit<'a> {
     /// The child corner from the old vertex of a corner to the middle of its edge.
     #[inline(always)]
     pub(super) fn start_half(&self, corner: u32) -> u32 {
-        match self.pieces {
-            Pieces::Quads => 4 * corner,
-            Pieces::Triangles => 3 * corner + 3 * (corner / 3),
-        }
+        self.pieces.start_half(corner)
     }
 
     /// The child corner from the middle of a corner's edge to its end.
     #[inline(always)]
     pub(super) fn end_half(&self, corner: u32) -> u32 {
-        let next = self.start_half(self.parent.next(corner));
-        match self.pieces {
-            Pieces::Quads => next + 3,
-            Pieces::Triangles => next + 2,
-        }
+        self.pieces.end_half(self.parent.next(corner))
     }
 
     /// The twin of the start half of a corner.

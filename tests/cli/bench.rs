@@ -130,3 +130,14 @@ impl Run {
         serde_json::from_slice(&self.out).unwrap_or_else(|e| panic!("{e}: {}", self.out_text()))
     }
 }
+
+/// The faces of a mesh from their smallest vertex on, in order.
+pub fn faces_by_vertex(mesh: &carvel::io::MeshFile) -> Vec<Vec<u32>> {
+    let turned = |face: &[u32]| {
+        let first = (0..face.len()).min_by_key(|&i| face[i]).unwrap();
+        [&face[first..], &face[..first]].concat()
+    };
+    let mut faces: Vec<_> = mesh.faces().map(turned).collect();
+    faces.sort_unstable();
+    faces
+}

@@ -7,8 +7,13 @@
 mod bench;
 mod carried;
 mod cases;
+mod creases;
+mod holes;
 mod hostile;
 mod pictures;
 mod places;
+mod primal;
 mod refined;
+mod spot;
+mod texture;
 mod usage;

@@ -23,8 +23,18 @@ fn help_documents_the_exit_codes_and_defaults() {
         }
     }
     let help = bench.run("subdivide --help").ok();
-    for default in ["[default: three-point]", "[default: 2]", "1/32", "[default: edge-corner]"] {
-        assert!(help.out_text().contains(default), "{default}");
+    // Lines are folded at the width of the terminal.
+    let words: Vec<_> = help.out_text().split_whitespace().collect();
+    let help = words.join(" ");
+    for default in [
+        "[default: three-point]",
+        "[default: 2]",
+        "1/32",
+        "[default: edge-corner]",
+        "[default: what the file says, or corners-plus1]",
+        "infinite ones stay so",
+    ] {
+        assert!(help.contains(default), "{default}");
     }
     assert!(bench.run("--version").ok().out_text().starts_with("carvel "));
 }
@@ -52,7 +62,6 @@ fn options_of_another_scheme_are_refused() {
         ("--scheme quartic --degree 4", "--degree belongs to --scheme bspline, not to quartic"),
         ("--passes 0", "--passes belongs to --scheme averaging, not to three-point"),
         ("--scheme bspline --degree 4 --split dual", "--split belongs to --scheme averaging"),
-        ("--scheme averaging --split primal", "--split primal is not available yet"),
         ("--scheme bspline", "needs --degree"),
     ] {
         bench.run(&format!("subdivide cube.obj -o out.obj {options}")).fails(2, words);
@@ -67,7 +76,6 @@ fn values_out_of_range_are_refused() {
     for (options, words) in [
         ("--w 1/15", "w = 1/15 is not within 0 and 1/16"),
         ("--w -1/32", "w = -1/32 is not within"),
-        ("--scheme bspline --degree 5", "degree 5"),
         ("--scheme bspline --degree 0", "degree 0"),
         ("--scheme bspline --degree 66", "degree 66"),
         ("--scheme averaging --passes 1001", "pass 1001"),

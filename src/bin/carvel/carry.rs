@@ -5,7 +5,7 @@
 
 use crate::seams::ByCorner;
 use carvel::base::NONE;
-use carvel::io::{Labels, MeshFile, SchemeTags, VertexAttribute, VertexColors};
+use carvel::io::{Labels, MeshFile, VertexAttribute, VertexColors};
 
 /// Data on the vertices of a control mesh, besides the positions.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,14 +36,16 @@ pub struct Load {
 
 impl Load {
     /// Collects the vertex data of a file. `source` gives the file's vertex for
-    /// each of the mesh's, if those are not the same.
-    pub fn of(file: &MeshFile, source: Option<&[u32]>) -> Self {
+    /// each of the mesh's, if those are not the same; texture coordinates may go another
+    /// way.
+    pub fn of(file: &MeshFile, source: Option<&[u32]>, with_uvs: bool) -> Self {
         let mut load = Self::default();
         if let Some(colors) = &file.colors {
             load.push(What::Colors, colors.width, colors.values.clone(), source);
         }
         let mut dropped = Vec::new();
-        load.push_corner_data(What::Uvs, uvs(file), source, &mut dropped);
+        let uvs = uvs(file).filter(|_| with_uvs);
+        load.push_corner_data(What::Uvs, uvs, source, &mut dropped);
         load.push_corner_data(What::Normals, normals(file), source, &mut dropped);
         for (i, attribute) in file.attributes.iter().enumerate() {
             load.push(What::Attribute(i), 1, attribute.values.clone(), source);
@@ -100,24 +102,6 @@ fn by_corner<'a, const N: usize>(
         indices,
         records,
     })
-}
-
-/// One line about the subdivision tags of a file, if it has any: no scheme here knows
-/// what to do with them yet.
-pub fn ignored_tags(file: &MeshFile) -> Option<String> {
-    let counted = [
-        (file.creases.len(), "crease", "creases"),
-        (file.sharp_vertices.len(), "sharp vertex", "sharp vertices"),
-        (file.holes.len(), "hole", "holes"),
-    ];
-    let some = counted.into_iter().filter(|(n, ..)| *n > 0);
-    let some = some.map(|(n, one, many)| format!("{n} {}", if n == 1 { one } else { many }));
-    let mut ignored: Vec<_> = some.collect();
-    if file.scheme != SchemeTags::default() {
-        ignored.push("the tags of the scheme".to_owned());
-    }
-    (!ignored.is_empty())
-        .then(|| format!("left out {}: the dual schemes have none", ignored.join(", ")))
 }
 
 /// Puts refined vertex data into the file that holds the refined mesh.
@@ -216,7 +200,7 @@ mod tests {
         let mut file = triangle();
         file.uvs = vec![[1.0, 2.0], [3.0, 4.0], [5.0, 6.0]];
         file.face_uvs = Some(vec![0, 1, 2]);
-        let load = Load::of(&file, Some(&[0, 1, 2, 1]));
+        let load = Load::of(&file, Some(&[0, 1, 2, 1]), true);
         assert_eq!(load.columns[0].values, [1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 3.0, 4.0]);
         assert_eq!(load.dropped, None);
     }
@@ -227,7 +211,7 @@ mod tests {
         file.uvs = vec![[0.0; 2]];
         file.normals = vec![[0.0; 3]];
         file.face_normals = Some(vec![0, NONE, 0]);
-        let dropped = Load::of(&file, None).dropped.unwrap();
+        let dropped = Load::of(&file, None, true).dropped.unwrap();
         assert_eq!(
             dropped,
             "dropped the texture coordinates (no face uses them) and the normals (1 of 3 corners have none)"

@@ -16,7 +16,7 @@ pub enum Exit {
     Usage = 2,
     /// An input cannot be read, or its content breaks its format.
     Input = 3,
-    /// A mesh is no orientable 2-manifold, or not what an option says it is.
+    /// A mesh is no orientable 2-manifold, or not what an option or the scheme asks for.
     Mesh = 4,
     /// A coordinate is no finite number, or leaves the range of the precision.
     Values = 5,
@@ -36,6 +36,7 @@ Exit codes:
   2  wrong usage
   3  an input cannot be read or parsed
   4  a mesh is defective: no faces, an index out of range, not manifold, ...
+     or the scheme has no rule for it, such as Loop for other faces than triangles
   5  values: a coordinate that is not finite or overflows
   6  size: the memory ceiling, the system's memory or 32-bit indices
   7  an output cannot be written
@@ -79,6 +80,8 @@ impl Exit {
             K::TooLarge | K::MemoryCeiling | K::OutOfResources => Self::Size,
             K::ParameterOutOfRange | K::InvalidText => Self::Usage,
             K::Cancelled => Self::Cancelled,
+            // The scheme has no rule for the mesh.
+            K::Unsupported if doing == Doing::Working => Self::Mesh,
             K::Io | K::Syntax | K::Unsupported => Self::of_file(doing),
             _ => Self::Internal,
         }
@@ -150,6 +153,7 @@ mod tests {
             assert_eq!(Exit::of(ErrorKind::Io, doing), exit);
             assert_eq!(Exit::of(ErrorKind::Unsupported, doing), exit);
         }
+        assert_eq!(Exit::of(ErrorKind::Unsupported, Doing::Working), Exit::Mesh);
     }
 
     #[test]

@@ -6,8 +6,11 @@ use crate::faults::Fault;
 use crate::input::{Input, ends_the_run};
 use crate::report;
 use crate::session::Session;
+use crate::tags;
 use crate::text::{counted, grouped, path_name};
-use carvel::mesh::{BuildOptions, Built, Defects, NonManifold, Survey, build};
+use carvel::io::{MeshFile, SchemeTags};
+use carvel::mesh::{BuildOptions, Built, Defect, Defects, NonManifold, Survey, build};
+use carvel::{Channel, FaceVaryingMode, Mesh};
 use serde_json::{Value, json};
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -59,6 +62,10 @@ struct Topology {
     boundary_edges: usize,
     /// The figures are those of the mesh after it was cut open.
     cut: bool,
+    /// Edges across which texture coordinates are not continuous, if every face has some.
+    seams: Option<usize>,
+    /// Edges that are not manifold, and vertices that are not while their edges are.
+    kept: (usize, usize),
     survey: Survey,
 }
 
@@ -70,12 +77,15 @@ impl Description {
             return Ok(Self { input, topology: None, faults });
         }
         let (topology, faults) = match attempt(session, &input, NonManifold::Error) {
-            Ok(built) => (Some(Topology::of(&built, false)), Vec::new()),
+            Ok(built) => {
+                let faults = bad_tag(session, &input).into_iter().collect();
+                (Some(Topology::of(&input, &built, (0, 0))), faults)
+            }
             Err(Defects::Call(error)) => return Err(crate::faults::of_work(&input, &error)),
             Err(Defects::Soup(defects)) => {
                 let faults = defects.iter().map(|d| Fault::of_defect(&input, d)).collect();
                 let cut = attempt(session, &input, NonManifold::Cut).ok();
-                (cut.map(|built| Topology::of(&built, true)), faults)
+                (cut.map(|built| Topology::of(&input, &built, kept(&defects))), faults)
             }
         };
         Ok(Self { input, topology, faults })
@@ -99,6 +109,7 @@ impl Description {
             line("bounding box", format!("{} to {}", point(low), point(high)));
         }
         line("attributes", or_none(&self.attributes()));
+        line("tags", or_none(&self.tags()));
         for note in &self.input.file.notes {
             line("note", note.clone());
         }
@@ -125,9 +136,28 @@ impl Description {
             "face_sizes": self.face_sizes(),
             "bounding_box": self.bounds(),
             "attributes": self.attributes(),
+            "creases": file.creases.len(),
+            "sharp_vertices": file.sharp_vertices.len(),
+            "holes": file.holes.len(),
             "notes": file.notes,
             "defects": self.faults.iter().map(Fault::json).collect::<Vec<_>>(),
         })
+    }
+
+    /// Sharp features and holes; what is infinitely sharp is told apart.
+    fn tags(&self) -> Vec<String> {
+        let file = &self.input.file;
+        let creases = file.creases.iter().map(|crease| crease.sharpness);
+        let vertices = file.sharp_vertices.iter().map(|tag| tag.sharpness);
+        let mut found = Vec::new();
+        found.extend(sharp("crease", "creases", creases));
+        found.extend(sharp("sharp vertex", "sharp vertices", vertices));
+        let holes = file.holes.len() as u64;
+        found.extend((holes > 0).then(|| counted(holes, "hole")));
+        if file.scheme != SchemeTags::default() {
+            found.push("some of the scheme".to_owned());
+        }
+        found
     }
 
     fn face_sizes(&self) -> BTreeMap<usize, usize> {
@@ -176,12 +206,15 @@ impl Description {
 }
 
 impl Topology {
-    fn of(built: &Built, cut: bool) -> Self {
+    /// Of the mesh as it is, or cut open where some parts are not manifold.
+    fn of(input: &Input, built: &Built, kept: (usize, usize)) -> Self {
         let mesh = &built.mesh;
         Self {
             edges: mesh.edges(),
             boundary_edges: mesh.boundary_edges(),
-            cut,
+            cut: kept != (0, 0),
+            seams: seams(&input.file, mesh),
+            kept,
             survey: Survey::of(mesh),
         }
     }
@@ -193,6 +226,19 @@ impl Topology {
         }
         let rim = grouped(self.boundary_edges as u64);
         line("edges", format!("{} ({rim} on boundaries)", grouped(self.edges as u64)));
+        if let Some(seams) = self.seams {
+            line("seams", counted(seams as u64, "edge"));
+        }
+        if self.kept != (0, 0) {
+            let (edges, vertices) = self.kept;
+            let and = if vertices == 1 { "vertex" } else { "vertices" };
+            let edges = counted(edges as u64, "edge");
+            let kept = format!(
+                "{edges} and {} {and}, sharp under --non-manifold sharpen",
+                grouped(vertices as u64)
+            );
+            line("not manifold", kept);
+        }
         line("Euler number", survey.euler_characteristic.to_string());
         line("components", grouped(survey.components as u64));
         line("boundary loops", grouped(survey.boundary_loops as u64));
@@ -209,6 +255,9 @@ impl Topology {
             "cut": self.cut,
             "edges": self.edges,
             "boundary_edges": self.boundary_edges,
+            "seam_edges": self.seams,
+            "non_manifold_edges": self.kept.0,
+            "non_manifold_vertices": self.kept.1,
             "euler_characteristic": survey.euler_characteristic,
             "components": survey.components,
             "boundary_loops": survey.boundary_loops,
@@ -219,11 +268,57 @@ impl Topology {
     }
 }
 
+/// Edges and vertices among defects that policy `sharpen` keeps.
+fn kept(defects: &[Defect]) -> (usize, usize) {
+    use Defect as D;
+    let edge =
+        |d: &&Defect| matches!(d, D::NonManifoldEdge { .. } | D::InconsistentOrientation { .. });
+    let vertex = |d: &&Defect| matches!(d, D::NonManifoldVertex { .. });
+    (defects.iter().filter(edge).count(), defects.iter().filter(vertex).count())
+}
+
+/// Edges across which texture coordinates are not continuous, if all corners have some.
+fn seams(file: &MeshFile, mesh: &Mesh) -> Option<usize> {
+    let indices = file.face_uvs.as_ref()?;
+    let channel = Channel::new(mesh, indices, file.uvs.len(), FaceVaryingMode::default()).ok()?;
+    Some(channel.seam_edges(mesh))
+}
+
+/// `3 creases (1 infinite)`, if there are any.
+fn sharp(one: &str, many: &str, sharpness: impl Iterator<Item = f32>) -> Option<String> {
+    let (mut all, mut infinite) = (0, 0);
+    for sharpness in sharpness {
+        all += 1;
+        infinite += u64::from(sharpness >= 10.0);
+    }
+    let what = if all == 1 { one } else { many };
+    let endless = format!(" ({} infinite)", grouped(infinite));
+    let endless = if infinite > 0 { endless } else { String::new() };
+    (all > 0).then(|| format!("{} {what}{endless}", grouped(all)))
+}
+
+/// The first tag of a manifold mesh that names nothing.
+fn bad_tag(session: &Session, input: &Input) -> Option<Fault> {
+    let options = tags::build_options(&input.file, &input.file.creases);
+    match attempt_with(session, input, &options) {
+        Err(Defects::Call(error)) => Some(Fault::of_error(input, &error)),
+        _ => None,
+    }
+}
+
 fn attempt(session: &Session, input: &Input, policy: NonManifold) -> Result<Built, Defects> {
-    let file = &input.file;
     let options = BuildOptions { non_manifold: policy, ..BuildOptions::default() };
+    attempt_with(session, input, &options)
+}
+
+fn attempt_with(
+    session: &Session,
+    input: &Input,
+    options: &BuildOptions,
+) -> Result<Built, Defects> {
+    let file = &input.file;
     let (sizes, vertices) = (&file.face_sizes, &file.face_vertices);
-    build(&session.context, file.positions.len(), sizes, vertices, &options)
+    build(&session.context, file.positions.len(), sizes, vertices, options)
 }
 
 fn json_of(name: &str, result: &Result<Description, Failure>) -> Value {

@@ -10,7 +10,10 @@
 //! | `input`, `places` | what is read, and where results go |
 //! | `faults` | mistakes in a mesh, as lines of its file |
 //! | `subdivide`, `info`, `picture` | the three commands |
-//! | `refine`, `precise`, `carry`, `seams` | one refinement with all its data |
+//! | `refine`, `precise` | one refinement with all its data |
+//! | `carry`, `seams` | vertex data, and names of faces |
+//! | `texture`, `tags` | texture coordinates with seams; creases and sharp vertices |
+//! | `holes`, `records` | faces that are left out, and what goes with them |
 //! | `report`, `text` | JSON, numbers and names for people |
 //! | `preview` | the renderer |
 
@@ -22,6 +25,7 @@ mod carry;
 mod console;
 mod exit;
 mod faults;
+mod holes;
 mod info;
 mod input;
 mod interrupt;
@@ -30,12 +34,15 @@ mod picture;
 mod places;
 mod precise;
 mod preview;
+mod records;
 mod refine;
 mod report;
 mod seams;
 mod session;
 mod subdivide;
+mod tags;
 mod text;
+mod texture;
 
 use args::{Cli, Command};
 use clap::Parser;
@@ -52,7 +59,8 @@ carvel turns a coarse mesh of any topology into a smooth subdivision surface.
   carvel preview cow.obj -o cow.png --wireframe overlay
 
 Reads and writes OBJ, OFF, PLY and STL. The default scheme is three-point
-(w = 1/32), whose surfaces are smooth to the second order; four more are there.
+(w = 1/32), whose surfaces are smooth to the second order; Catmull-Clark, Loop and
+five more are there.
 Help: carvel --help, or carvel subdivide --help for schemes and boundaries.
 ";
 

@@ -1,11 +1,15 @@
 //! One refinement with all its data: a mesh file in, a mesh file out.
 
-use crate::args::NumberType;
+use crate::args::{Chosen, NumberType};
 use crate::carry::{self, Load};
 use crate::memory::zeroed;
 use crate::precise::Precise;
+use crate::texture::{self, Texture};
+use crate::{holes, tags};
+use carvel::hierarchy::FaceVarying;
 use carvel::io::MeshFile;
 use carvel::mesh::Built;
+use carvel::scheme::SplitKind;
 use carvel::{Attribute, Boundary, Context, Error, Mesh, Output, Prediction, Refiner};
 use carvel::{ErrorKind, Result, Scheme, Task};
 use std::borrow::Cow;
@@ -26,12 +30,14 @@ pub struct Work<'a> {
     pub control: &'a MeshFile,
     /// Its topology.
     pub built: &'a Built,
-    /// The scheme.
-    pub scheme: &'a Scheme,
+    /// The scheme and its options.
+    pub chosen: &'a Chosen,
     /// The number of steps, at least 1.
     pub levels: u32,
     /// The predicted sizes.
     pub plan: &'a Prediction,
+    /// Whether holes are written.
+    pub keep_holes: bool,
 }
 
 /// A refined mesh.
@@ -39,8 +45,10 @@ pub struct Work<'a> {
 pub struct Outcome {
     /// The mesh, ready to be written.
     pub file: MeshFile,
-    /// One line about data that had to be left out.
-    pub dropped: Option<String>,
+    /// One line for each kind of data that had to be left out.
+    pub notes: Vec<String>,
+    /// The number of faces that were left out as holes.
+    pub holes: u64,
     /// Whether a further step must treat the mesh as anchored.
     pub anchored: bool,
     /// Bytes of scratch memory that the kernel held.
@@ -93,39 +101,88 @@ pub fn predict(mesh: &Mesh, scheme: &Scheme, levels: u32) -> Result<Prediction> 
 }
 
 fn run<T: Precise>(refiner: &mut Refiner<T>, context: &Context, work: &Work) -> Result<Outcome> {
-    let load = Load::of(work.control, work.built.vertex_source.as_deref());
-    check_memory::<T>(context, work, &load)?;
+    let (mesh, scheme) = (&work.built.mesh, &work.chosen.scheme);
+    let features = work.chosen.has_features();
+    let texture = if features { Texture::of(work.control, mesh, work.chosen.uv)? } else { None };
+    let source = work.built.vertex_source.as_deref();
+    let load = Load::of(work.control, source, texture.is_none());
+    check_memory::<T>(context, work, &load, texture.as_ref())?;
+    let Filled { mut file, faces, columns, texture: refined } =
+        fill(refiner, context, work, &load, texture.as_ref())?;
+    let hole = holes::find(mesh, scheme, &faces)?;
+    let faces = sources(mesh, faces);
+    carry::inherit(work.control, &faces, &mut file);
+    carry::unload(&load, columns, work.control, &mut file);
+    if let (Some(texture), Some(refined)) = (&texture, refined) {
+        texture.unload(refined, &faces, &mut file);
+    }
+    if features {
+        tags::unload(work, &mut file)?;
+    }
+    let mut left_out = 0;
+    match hole {
+        Some(hole) if work.keep_holes => holes::tag(&mut file, &hole),
+        Some(hole) => {
+            holes::leave_out(&mut file, &hole);
+            left_out = work.plan.last().faces - file.face_sizes.len() as u64;
+        }
+        None => {}
+    }
+    let mut notes: Vec<_> = load.dropped.into_iter().collect();
+    notes.extend(texture.and_then(|texture| texture.note));
+    let anchored = scheme.split() == SplitKind::Corner && scheme.boundary() != Boundary::None;
+    Ok(Outcome { file, notes, holes: left_out, anchored, scratch: refiner.bytes() })
+}
+
+/// What the kernel makes.
+struct Filled {
+    file: MeshFile,
+    /// The control face of every face, in the mesh's order.
+    faces: Vec<u32>,
+    columns: Vec<Vec<f64>>,
+    texture: Option<texture::Refined<f64>>,
+}
+
+/// Refines into the arrays of a mesh file and of its data.
+fn fill<T: Precise>(
+    refiner: &mut Refiner<T>,
+    context: &Context,
+    work: &Work,
+    load: &Load,
+    texture: Option<&Texture>,
+) -> Result<Filled> {
     let columns = load.columns.iter().map(|c| T::narrow(&c.values, c.width));
     let columns = columns.collect::<Result<Vec<_>>>()?;
     let attributes = load.columns.iter().zip(&columns);
     let attributes: Vec<_> =
         attributes.map(|(column, values)| Attribute::vertex(&values[..], column.width)).collect();
-    let points = positions(work);
+    let uvs = texture.map(|texture| T::narrow(&texture.values, 2)).transpose()?;
+    let channels: Vec<_> = texture
+        .zip(uvs.as_deref())
+        .map(|(texture, values)| FaceVarying { channel: &texture.channel, values, width: 2 })
+        .into_iter()
+        .collect();
+    let points = positions(work.control, work.built);
     let positions = T::narrow(points.as_flattened(), 3)?;
     let task = Task {
         mesh: &work.built.mesh,
-        scheme: work.scheme,
+        scheme: &work.chosen.scheme,
         levels: work.levels,
         positions: &positions,
         attributes: &attributes,
-        channels: &[],
+        channels: &channels,
         face_sources: true,
     };
-    let (mut file, faces, refined) = fill(refiner, context, &task, work.plan)?;
-    carry::inherit(work.control, &sources(&work.built.mesh, faces), &mut file);
-    carry::unload(&load, refined, work.control, &mut file);
-    let anchored = work.scheme.boundary() != Boundary::None;
-    Ok(Outcome { file, dropped: load.dropped, anchored, scratch: refiner.bytes() })
+    run_task(refiner, context, &task, work.plan)
 }
 
-/// Refines into the arrays of a mesh file; also returns the control face of
-/// every face, and the refined columns.
-fn fill<T: Precise>(
+/// Makes room for a task's results and refines into it.
+fn run_task<T: Precise>(
     refiner: &mut Refiner<T>,
     context: &Context,
     task: &Task<T>,
     plan: &Prediction,
-) -> Result<(MeshFile, Vec<u32>, Vec<Vec<f64>>)> {
+) -> Result<Filled> {
     let last = plan.last();
     let mut file = MeshFile {
         face_sizes: zeroed(0, last.faces)?,
@@ -137,6 +194,9 @@ fn fill<T: Precise>(
     let mut columns = columns
         .map(|a| zeroed(T::default(), last.vertices * a.width as u64))
         .collect::<Result<Vec<_>>>()?;
+    let room =
+        |data: &FaceVarying<T>| texture::Refined::<T>::room(data.channel, task.scheme, task.levels);
+    let mut texture = task.channels.first().map(room).transpose()?;
     file.positions = T::points(last.vertices, |positions| {
         let output = Output {
             face_sizes: Some(&mut file.face_sizes),
@@ -144,18 +204,19 @@ fn fill<T: Precise>(
             face_sources: Some(&mut faces),
             positions,
             attributes: columns.iter_mut().map(Vec::as_mut_slice).collect(),
-            channels: Vec::new(),
+            channels: texture.iter_mut().map(texture::Refined::output).collect(),
         };
         refiner.refine_into(context, task, output)
     })?;
     let columns = columns.into_iter().map(T::widen).collect::<Result<_>>()?;
-    Ok((file, faces, columns))
+    let texture = texture.map(texture::Refined::widen).transpose()?;
+    Ok(Filled { file, faces, columns, texture })
 }
 
 /// The positions of the mesh's vertices, some of which may be copies.
-fn positions<'a>(work: &Work<'a>) -> Cow<'a, [[f64; 3]]> {
-    let positions = &work.control.positions;
-    match &work.built.vertex_source {
+pub fn positions<'a>(control: &'a MeshFile, built: &Built) -> Cow<'a, [[f64; 3]]> {
+    let positions = &control.positions;
+    match &built.vertex_source {
         None => Cow::Borrowed(positions),
         Some(source) => Cow::Owned(source.iter().map(|&v| positions[v as usize]).collect()),
     }
@@ -170,7 +231,12 @@ fn sources(mesh: &Mesh, mut faces: Vec<u32>) -> Vec<u32> {
 }
 
 /// Counts the result as a mesh file, with all that it carries.
-fn check_memory<T: Precise>(context: &Context, work: &Work, load: &Load) -> Result<()> {
+fn check_memory<T: Precise>(
+    context: &Context,
+    work: &Work,
+    load: &Load,
+    texture: Option<&Texture>,
+) -> Result<()> {
     let last = work.plan.last();
     let width = 3 + load.columns.iter().map(|c| c.width as u64).sum::<u64>();
     let scratch = work.plan.scratch_bytes(width, T::BYTES);
@@ -178,5 +244,7 @@ fn check_memory<T: Precise>(context: &Context, work: &Work, load: &Load) -> Resu
     let narrow = if T::BYTES < 8 { width * T::BYTES * last.vertices } else { 0 };
     let file = 24 * last.vertices + 4 * last.corners + 8 * last.faces;
     let carried = carry::bytes(load, work.control, last.vertices, last.corners, last.faces);
-    context.check_memory(scratch + narrow + file + carried)
+    let count = |texture| texture::bytes::<T>(texture, &work.chosen.scheme, work.levels);
+    let texture = texture.map(count).transpose()?.unwrap_or(0);
+    context.check_memory(scratch + narrow + file + carried + texture)
 }

@@ -79,6 +79,8 @@ impl Level {
 /// What became of one input.
 #[derive(Debug, Clone)]
 pub struct Done {
+    /// The scheme, with what the file asked of it.
+    pub chosen: Chosen,
     /// All levels, the control mesh first.
     pub levels: Vec<Level>,
     /// Times.
@@ -87,6 +89,8 @@ pub struct Done {
     pub scratch: Option<u64>,
     /// Whether the result is anchored.
     pub anchored: bool,
+    /// Faces that were left out as holes.
+    pub holes: u64,
     /// What the user was told.
     pub notes: Vec<String>,
 }
@@ -130,6 +134,7 @@ fn describe(report: &mut Map<String, Value>, done: &Done) {
     let counts = done.levels.iter().enumerate().map(|(i, level)| level.json(i));
     report.insert("counts".to_owned(), counts.collect());
     report.insert("anchored".to_owned(), json!(done.anchored));
+    report.insert("holes_left_out".to_owned(), json!(done.holes));
     report.insert("seconds".to_owned(), done.seconds.json());
     report.insert("bytes".to_owned(), json!({ "scratch": done.scratch, "peak": memory::peak() }));
     report.insert("notes".to_owned(), json!(done.notes));
@@ -137,13 +142,14 @@ fn describe(report: &mut Map<String, Value>, done: &Done) {
 
 fn scheme(chosen: &Chosen) -> Value {
     let passes: Vec<_> = chosen.scheme.passes().iter().map(ToString::to_string).collect();
-    json!({
-        "name": chosen.name,
-        "split": "dual",
-        "passes": passes,
-        "corner_rule": chosen.rule,
-        "boundary": chosen.boundary,
-    })
+    let mut scheme = Map::new();
+    scheme.insert("name".to_owned(), json!(chosen.name));
+    scheme.insert("split".to_owned(), json!(chosen.split()));
+    scheme.insert("passes".to_owned(), json!(passes));
+    for (option, word) in &chosen.options {
+        scheme.insert((*option).to_owned(), json!(word));
+    }
+    Value::Object(scheme)
 }
 
 /// A failure for programs.

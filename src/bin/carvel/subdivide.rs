@@ -1,7 +1,6 @@
 //! The command `subdivide`.
 
 use crate::args::{Chosen, NumberType, SubdivideArgs};
-use crate::carry;
 use crate::exit::{Doing, Exit, Failure};
 use crate::faults;
 use crate::input::{Input, ends_the_run};
@@ -9,11 +8,12 @@ use crate::picture;
 use crate::places::{self, Job, Wish};
 use crate::precise::Precise;
 use crate::preview::View;
-use crate::refine::{Engine, Outcome, Work, predict};
+use crate::refine::{Engine, Outcome, Work, positions, predict};
 use crate::report::{self, Done, Level, Seconds, Settings};
 use crate::session::Session;
+use crate::tags;
 use crate::text::counted;
-use carvel::io::{self, MeshFile, WriteOptions};
+use carvel::io::{self, MeshFile, SchemeTags, WriteOptions};
 use carvel::mesh::{BuildOptions, Built, build};
 use serde_json::Value;
 use std::fs;
@@ -21,7 +21,8 @@ use std::time::{Duration, Instant};
 
 /// Refines all inputs.
 pub fn run(args: &SubdivideArgs) -> Result<Exit, Failure> {
-    let chosen = args.scheme.choose()?;
+    args.check()?;
+    let chosen = args.scheme.choose(SchemeTags::default())?;
     let view = args.view.view()?;
     let jobs = places::plan(&Wish {
         inputs: &args.inputs,
@@ -46,9 +47,11 @@ struct Run<'a> {
 /// What refining, or converting, made of an input.
 struct Made {
     file: MeshFile,
+    chosen: Chosen,
     levels: Vec<Level>,
     anchored: bool,
     scratch: Option<u64>,
+    holes: u64,
     notes: Vec<String>,
 }
 
@@ -74,7 +77,7 @@ impl Run<'_> {
 
     fn report(&self, job: &Job, result: &Result<Done, Failure>) -> Value {
         let settings = Settings {
-            chosen: self.chosen,
+            chosen: result.as_ref().map_or(self.chosen, |done| &done.chosen),
             levels: self.args.levels,
             threads: self.session.context.threads(),
             precision: self.args.precision.name(),
@@ -114,8 +117,8 @@ impl Run<'_> {
         self.write(job, &made.file, &mut seconds)?;
         seconds.total = start.elapsed();
         let notes = self.tell(job, &made);
-        let Made { levels, anchored, scratch, .. } = made;
-        let done = Done { levels, seconds, scratch, anchored, notes };
+        let Made { chosen, levels, anchored, scratch, holes, .. } = made;
+        let done = Done { chosen, levels, seconds, scratch, anchored, holes, notes };
         if !self.args.json {
             self.session.console.summary(&self.summary(job, &done));
         }
@@ -130,7 +133,8 @@ impl Run<'_> {
         }
         // The topology is wanted for its counts only; what has none is converted too.
         let built = if self.args.json {
-            timed(&mut seconds.build, || self.build(&input)).ok()
+            let options = BuildOptions { anchored: self.args.anchored, ..Default::default() };
+            timed(&mut seconds.build, || self.build(&input, &options)).ok()
         } else {
             None
         };
@@ -144,33 +148,57 @@ impl Run<'_> {
         };
         let notes = std::mem::take(&mut file.notes);
         let anchored = self.args.anchored;
-        Ok(Made { file, levels: vec![level], anchored, scratch: None, notes })
+        let chosen = self.chosen.clone();
+        Ok(Made { file, chosen, levels: vec![level], anchored, scratch: None, holes: 0, notes })
     }
 
     fn refine(&mut self, input: &Input, seconds: &mut Seconds) -> Result<Made, Failure> {
         let of_work = |e: carvel::Error| faults::of_work(input, &e);
+        let chosen = self.args.scheme.choose(input.file.scheme)?;
         self.session.console.phase("building", &input.name);
-        let built = timed(&mut seconds.build, || self.build(input))?;
-        let (scheme, levels) = (&self.chosen.scheme, self.args.levels);
-        let plan = predict(&built.mesh, scheme, levels).map_err(of_work)?;
+        let built = timed(&mut seconds.build, || self.build_for(input, &chosen))?;
+        let levels = self.args.levels;
+        let plan = predict(&built.mesh, &chosen.scheme, levels).map_err(of_work)?;
         self.session.console.phase("refining", &input.name);
-        let work = Work { control: &input.file, built: &built, scheme, levels, plan: &plan };
+        let (control, keep_holes) = (&input.file, self.args.keep_holes);
+        let work =
+            Work { control, built: &built, chosen: &chosen, levels, plan: &plan, keep_holes };
         let outcome = timed(&mut seconds.refine, || self.engine.run(&self.session.context, &work));
-        let Outcome { file, dropped, anchored, scratch } = outcome.map_err(of_work)?;
+        let Outcome { file, notes: lost, holes, anchored, scratch } = outcome.map_err(of_work)?;
+        if file.face_sizes.is_empty() {
+            let message = format!("{}: all faces are holes (--keep-holes keeps them)", input.name);
+            return Err(Failure::new(Exit::Mesh, message));
+        }
         let mut notes = input.file.notes.clone();
-        notes.extend(cut(&input.file, &built));
-        notes.extend(dropped);
-        notes.extend(carry::ignored_tags(&input.file));
-        Ok(Made { file, levels: Level::all(&plan), anchored, scratch: Some(scratch), notes })
+        notes.extend(not_manifold(&input.file, &built));
+        notes.extend(lost);
+        notes.extend(left_out(holes));
+        if !chosen.has_features() {
+            notes.extend(tags::ignored(&input.file, &chosen.name));
+        }
+        let (levels, scratch) = (Level::all(&plan), Some(scratch));
+        Ok(Made { file, chosen, levels, anchored, scratch, holes, notes })
     }
 
-    fn build(&self, input: &Input) -> Result<Built, Failure> {
+    /// Builds the mesh with the tags that mean something to the scheme.
+    fn build_for(&self, input: &Input, chosen: &Chosen) -> Result<Built, Failure> {
         let file = &input.file;
-        let options = BuildOptions {
-            non_manifold: self.args.non_manifold.into(),
-            anchored: self.args.anchored,
-            ..BuildOptions::default()
-        };
+        if !chosen.has_features() {
+            let options = BuildOptions { anchored: self.args.anchored, ..Default::default() };
+            return self.build(input, &options);
+        }
+        let built = self.build(input, &tags::build_options(file, &file.creases))?;
+        let Some(degrees) = self.args.creases.angle() else { return Ok(built) };
+        // Angles are known once it is known which faces meet.
+        let (points, sharpness) = (positions(file, &built), self.args.creases.sharpness());
+        let creases = tags::with_creases_by_angle(file, &built, &points, degrees, sharpness);
+        let creases = creases.map_err(|e| faults::of_work(input, &e))?;
+        self.build(input, &tags::build_options(file, &creases))
+    }
+
+    fn build(&self, input: &Input, options: &BuildOptions) -> Result<Built, Failure> {
+        let file = &input.file;
+        let options = BuildOptions { non_manifold: self.args.non_manifold.into(), ..*options };
         let (sizes, vertices) = (&file.face_sizes, &file.face_vertices);
         build(&self.session.context, file.positions.len(), sizes, vertices, &options)
             .map_err(|defects| faults::failure(input, &defects))
@@ -220,27 +248,40 @@ impl Run<'_> {
     }
 
     fn summary(&self, job: &Job, done: &Done) -> String {
-        let faces = |level: Option<&Level>| counted(level.map_or(0, |l| l.faces), "face");
+        let faces = |level: Option<&Level>, holes| {
+            counted(level.map_or(0, |level| level.faces - holes), "face")
+        };
         let input = crate::text::path_name(&job.input);
         let seconds = done.seconds.total.as_secs_f64();
         if self.args.levels == 0 {
-            let (faces, format) = (faces(done.levels.first()), job.format);
+            let (faces, format) = (faces(done.levels.first(), 0), job.format);
             return format!("{input}: {faces} converted to {format} in {seconds:.2} s");
         }
-        let (before, after) = (faces(done.levels.first()), faces(done.levels.last()));
+        let (before, after) =
+            (faces(done.levels.first(), 0), faces(done.levels.last(), done.holes));
         let levels = counted(u64::from(self.args.levels), "level");
-        let scheme = self.chosen.name;
+        let scheme = &self.chosen.name;
         format!("{input}: {before} -> {after} ({levels}, {scheme}) in {seconds:.2} s")
     }
 }
 
-/// What policy `cut` did, if it did anything.
-fn cut(file: &MeshFile, built: &Built) -> Option<String> {
+/// What the policy did with a mesh that is not manifold.
+fn not_manifold(file: &MeshFile, built: &Built) -> Option<String> {
+    if !built.mesh.is_manifold() {
+        return Some("not manifold, kept as it is: infinitely sharp there".to_owned());
+    }
     let copies = built.mesh.vertices() - file.positions.len();
     (copies > 0).then(|| match copies {
         1 => "not manifold, cut open: 1 copy of a vertex was made".to_owned(),
         n => format!("not manifold, cut open: {n} copies of vertices were made"),
     })
+}
+
+/// How many faces are holes.
+fn left_out(holes: u64) -> Option<String> {
+    let what = if holes == 1 { "which is a hole" } else { "which are holes" };
+    let faces = counted(holes, "face");
+    (holes > 0).then(|| format!("left out {faces}, {what} (--keep-holes keeps them)"))
 }
 
 /// Creates the directories of a job.

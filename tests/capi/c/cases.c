@@ -1,7 +1,7 @@
 /* The awkward meshes of tests/cases from C: argument 1 is a list of them, made by the
- * Rust side. Each is created under both policies; those that become a mesh run every
- * scheme of the header in f64 and in f32, by a refiner and by a hierarchy. Prints the
- * names of the cases that ran. */
+ * Rust side. Each is created under every policy, and with its tags; those that become
+ * a mesh run every scheme of the header that has rules for them in f64 and in f32, by a
+ * refiner and by a hierarchy. Prints the names of the cases that ran. */
 #include "reading.h"
 
 #include <math.h>
@@ -19,18 +19,27 @@ typedef struct scheme_line {
     uint64_t degree;
     const carvel_fraction *passes;
     uint64_t pass_count;
+    int32_t creasing, triangle_rule, loop_weights;
 } scheme_line;
 
 static const carvel_fraction four_point[2] = { { 0, 1 }, { 7, 2 } };
 
 /* Every scheme of the header, a line each. */
 static const scheme_line schemes[] = {
-    { CARVEL_SCHEME_DOO_SABIN, CARVEL_CORNER_RULE_COSINE, 0, NULL, 0 },
-    { CARVEL_SCHEME_DOO_SABIN, CARVEL_CORNER_RULE_AVERAGE, 0, NULL, 0 },
-    { CARVEL_SCHEME_THREE_POINT, CARVEL_CORNER_RULE_COSINE, 0, NULL, 0 },
-    { CARVEL_SCHEME_QUARTIC, CARVEL_CORNER_RULE_COSINE, 0, NULL, 0 },
-    { CARVEL_SCHEME_B_SPLINE, CARVEL_CORNER_RULE_AVERAGE, 4, NULL, 0 },
-    { CARVEL_SCHEME_AVERAGING, CARVEL_CORNER_RULE_COSINE, 0, four_point, 2 },
+    { CARVEL_SCHEME_DOO_SABIN, CARVEL_CORNER_RULE_COSINE, 0, NULL, 0, 0, 0, 0 },
+    { CARVEL_SCHEME_DOO_SABIN, CARVEL_CORNER_RULE_AVERAGE, 0, NULL, 0, 0, 0, 0 },
+    { CARVEL_SCHEME_THREE_POINT, CARVEL_CORNER_RULE_COSINE, 0, NULL, 0, 0, 0, 0 },
+    { CARVEL_SCHEME_QUARTIC, CARVEL_CORNER_RULE_COSINE, 0, NULL, 0, 0, 0, 0 },
+    { CARVEL_SCHEME_B_SPLINE, CARVEL_CORNER_RULE_AVERAGE, 4, NULL, 0, 0, 0, 0 },
+    { CARVEL_SCHEME_AVERAGING, CARVEL_CORNER_RULE_COSINE, 0, four_point, 2, 0, 0, 0 },
+    { CARVEL_SCHEME_B_SPLINE, CARVEL_CORNER_RULE_AVERAGE, 5, NULL, 0, 0, 0, 0 },
+    { CARVEL_SCHEME_PRIMAL, CARVEL_CORNER_RULE_COSINE, 0, four_point, 2, 0, 0, 0 },
+    { CARVEL_SCHEME_BILINEAR, 0, 0, NULL, 0, 0, 0, 0 },
+    { CARVEL_SCHEME_CATMULL_CLARK, 0, 0, NULL, 0, CARVEL_CREASING_UNIFORM,
+      CARVEL_TRIANGLE_RULE_SMOOTH, 0 },
+    { CARVEL_SCHEME_CATMULL_CLARK, 0, 0, NULL, 0, CARVEL_CREASING_CHAIKIN, 0, 0 },
+    { CARVEL_SCHEME_LOOP, 0, 0, NULL, 0, CARVEL_CREASING_UNIFORM, 0, CARVEL_LOOP_WEIGHTS_WARREN },
+    { CARVEL_SCHEME_LOOP, 0, 0, NULL, 0, CARVEL_CREASING_CHAIKIN, 0, CARVEL_LOOP_WEIGHTS_LOOP },
 };
 
 static const int32_t boundaries[] = { CARVEL_BOUNDARY_EDGE_AND_CORNER, CARVEL_BOUNDARY_EDGE,
@@ -47,6 +56,9 @@ static carvel_scheme *scheme_by_line(const scheme_line *line, int32_t boundary)
     desc.degree = line->degree;
     desc.passes = line->passes;
     desc.pass_count = line->pass_count;
+    desc.creasing = line->creasing;
+    desc.triangle_rule = line->triangle_rule;
+    desc.loop_weights = line->loop_weights;
     CHECK_OK(carvel_scheme_create(&desc, &scheme, failure));
     return scheme;
 }
@@ -55,16 +67,63 @@ static carvel_scheme *scheme_by_line(const scheme_line *line, int32_t boundary)
 
 typedef struct awkward {
     char name[64];
-    /* What creating the mesh answers, if defects are refused and if they are cut. */
-    carvel_status refused, cut;
+    /* What creating the mesh answers: if defects are refused, cut or sharpened, and if
+     * they are refused and tags given. */
+    carvel_status refused, cut, sharpened, tagged;
     /* What refining answers in f64 and in f32, and what some schemes may say. */
     carvel_status wide, narrow, may_be;
     poly *control;
+    uint64_t crease_count, sharp_vertex_count, hole_count;
+    uint32_t *crease_vertices, *sharp_vertices, *holes;
+    float *crease_sharpness, *vertex_sharpness;
 } awkward;
 
 static carvel_status read_status(FILE *file)
 {
     return (carvel_status)read_number(file);
+}
+
+/* Sharpness is written as its bits, since some of it is no number. */
+static float read_sharpness(FILE *file)
+{
+    uint32_t bits = (uint32_t)read_number(file);
+    float sharpness;
+    memcpy(&sharpness, &bits, sizeof sharpness);
+    return sharpness;
+}
+
+static void read_tags(FILE *file, awkward *it)
+{
+    uint64_t i;
+    it->crease_count = read_number(file);
+    it->sharp_vertex_count = read_number(file);
+    it->hole_count = read_number(file);
+    it->crease_vertices = TAKE(uint32_t, 2 * it->crease_count);
+    it->crease_sharpness = TAKE(float, it->crease_count);
+    it->sharp_vertices = TAKE(uint32_t, it->sharp_vertex_count);
+    it->vertex_sharpness = TAKE(float, it->sharp_vertex_count);
+    it->holes = TAKE(uint32_t, it->hole_count);
+    for (i = 0; i < it->crease_count; i++) {
+        it->crease_vertices[2 * i] = (uint32_t)read_number(file);
+        it->crease_vertices[2 * i + 1] = (uint32_t)read_number(file);
+        it->crease_sharpness[i] = read_sharpness(file);
+    }
+    for (i = 0; i < it->sharp_vertex_count; i++) {
+        it->sharp_vertices[i] = (uint32_t)read_number(file);
+        it->vertex_sharpness[i] = read_sharpness(file);
+    }
+    for (i = 0; i < it->hole_count; i++)
+        it->holes[i] = (uint32_t)read_number(file);
+}
+
+static void free_case(awkward *it)
+{
+    poly_free(it->control);
+    free(it->crease_vertices);
+    free(it->crease_sharpness);
+    free(it->sharp_vertices);
+    free(it->vertex_sharpness);
+    free(it->holes);
 }
 
 /* 0 at the end of the list. */
@@ -74,21 +133,39 @@ static int read_case(FILE *file, awkward *it)
         return 0;
     it->refused = read_status(file);
     it->cut = read_status(file);
+    it->sharpened = read_status(file);
+    it->tagged = read_status(file);
     it->wide = read_status(file);
     it->narrow = read_status(file);
     it->may_be = read_status(file);
     it->control = read_poly(file);
+    read_tags(file, it);
     return 1;
 }
 
 /* --------------------------------------------------------------- creating */
 
-static carvel_mesh *create(const awkward *it, int32_t policy, carvel_status expected)
+static void describe_tags(const awkward *it, carvel_mesh_desc *desc)
+{
+    desc->crease_vertices = it->crease_vertices;
+    desc->crease_sharpness = it->crease_sharpness;
+    desc->crease_count = it->crease_count;
+    desc->sharp_vertices = it->sharp_vertices;
+    desc->vertex_sharpness = it->vertex_sharpness;
+    desc->sharp_vertex_count = it->sharp_vertex_count;
+    desc->holes = it->holes;
+    desc->hole_count = it->hole_count;
+}
+
+static carvel_mesh *create(const awkward *it, int32_t policy, int with_tags,
+                           carvel_status expected)
 {
     carvel_mesh *mesh = NULL;
     carvel_mesh_desc desc;
     poly_describe(it->control, &desc);
     desc.non_manifold = policy;
+    if (with_tags)
+        describe_tags(it, &desc);
     CHECK_STATUS(expected, carvel_mesh_create(NULL, &desc, &mesh, failure));
     if (expected == CARVEL_STATUS_OK)
         CHECK_OK(carvel_mesh_validate(mesh, failure));
@@ -221,10 +298,40 @@ static void check_levels(const run *at)
     }
 }
 
+/* 1 if all faces are triangles. */
+static int is_triangles(const poly *control)
+{
+    uint64_t f = 0;
+    while (f < control->faces && control->sizes[f] == 3)
+        f++;
+    return f == control->faces;
+}
+
+/* 1 if a scheme has rules for the mesh, as the header says; linear refinement has them
+ * for everything, Loop's scheme for triangles. */
+static int has_rules(const run *at, const scheme_line *line)
+{
+    carvel_survey survey;
+    if (line->family == CARVEL_SCHEME_LOOP)
+        return is_triangles(at->it->control);
+    if (line->family == CARVEL_SCHEME_CATMULL_CLARK || line->family == CARVEL_SCHEME_BILINEAR)
+        return 1;
+    CHECK_OK(carvel_survey_init(&survey, sizeof survey));
+    CHECK_OK(carvel_mesh_survey(at->mesh, &survey, failure));
+    return survey.creases + survey.sharp_vertices == 0 && carvel_mesh_is_manifold(at->mesh);
+}
+
 static void run_scheme(run *at, const scheme_line *line, int32_t boundary)
 {
     carvel_scheme *scheme = scheme_by_line(line, boundary);
     at->scheme = scheme;
+    if (!has_rules(at, line)) {
+        CHECK_OK(carvel_counts_init(&at->counts, sizeof at->counts));
+        CHECK_STATUS(CARVEL_STATUS_UNSUPPORTED,
+                     carvel_predict_counts(at->mesh, scheme, 1, &at->counts, failure));
+        carvel_scheme_destroy(scheme);
+        return;
+    }
     at->hierarchy = hierarchy_of(at->mesh, scheme, LEVELS);
     at->counts = predicted(at->mesh, scheme, LEVELS);
     check_levels(at);
@@ -256,17 +363,29 @@ static void run_mesh(const awkward *it, const carvel_mesh *mesh)
     free(positions);
 }
 
+static int has_tags(const awkward *it)
+{
+    return it->crease_count + it->sharp_vertex_count + it->hole_count > 0;
+}
+
 static void run_case(const awkward *it)
 {
-    carvel_mesh *mesh, *repaired;
+    carvel_mesh *mesh, *repaired, *sharpened, *tagged;
     check_context(it->name);
-    mesh = create(it, CARVEL_NON_MANIFOLD_REFUSE, it->refused);
-    repaired = create(it, CARVEL_NON_MANIFOLD_CUT, it->cut);
+    mesh = create(it, CARVEL_NON_MANIFOLD_REFUSE, 0, it->refused);
+    repaired = create(it, CARVEL_NON_MANIFOLD_CUT, 0, it->cut);
+    sharpened = create(it, CARVEL_NON_MANIFOLD_SHARPEN, 0, it->sharpened);
+    tagged = create(it, CARVEL_NON_MANIFOLD_REFUSE, 1, it->tagged);
     if (mesh != NULL || repaired != NULL)
         run_mesh(it, mesh != NULL ? mesh : repaired);
+    if (sharpened != NULL && !carvel_mesh_is_manifold(sharpened))
+        run_mesh(it, sharpened);
+    if (tagged != NULL && has_tags(it))
+        run_mesh(it, tagged);
     carvel_mesh_destroy(mesh);
     carvel_mesh_destroy(repaired);
-    poly_free(it->control);
+    carvel_mesh_destroy(sharpened);
+    carvel_mesh_destroy(tagged);
 }
 
 int main(int count, char **arguments)
@@ -277,6 +396,7 @@ int main(int count, char **arguments)
     while (read_case(file, &it)) {
         run_case(&it);
         printf("%s\n", it.name);
+        free_case(&it);
     }
     fclose(file);
     return check_end();

@@ -76,6 +76,17 @@ poly *poly_torus(uint32_t around, uint32_t across)
     return it;
 }
 
+poly *poly_octahedron(void)
+{
+    static const uint32_t sizes[8] = { 3, 3, 3, 3, 3, 3, 3, 3 };
+    static const uint32_t indices[24] = { 0, 1, 4, 1, 2, 4, 2, 3, 4, 3, 0, 4,
+                                          1, 0, 5, 2, 1, 5, 3, 2, 5, 0, 3, 5 };
+    static const double unit[18] = { 1, 0, 0, 0, 1, 0, -1, 0, 0, 0, -1, 0, 0, 0, 1, 0, 0, -1 };
+    poly *it = poly_of(6, 8, sizes, indices);
+    memcpy(it->positions, unit, sizeof unit);
+    return it;
+}
+
 poly *poly_mixed(void)
 {
     static const uint32_t sizes[4] = { 4, 3, 5, 4 };

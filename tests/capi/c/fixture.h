@@ -22,6 +22,9 @@ poly *poly_cube(void);
 poly *poly_grid(uint32_t width, uint32_t height);
 /* `around` by `across` quads, closed. */
 poly *poly_torus(uint32_t around, uint32_t across);
+/* Eight triangles, closed; its positions are the six unit vectors, +x first, then
+ * +y, -x, -y, +z, -z. */
+poly *poly_octahedron(void);
 /* A quad, a triangle, a pentagon, a quad apart, and an isolated vertex: open. */
 poly *poly_mixed(void);
 void poly_free(poly *it);

@@ -38,7 +38,7 @@ static int read_case(FILE *file, golden_case *it)
         return 0;
     it->levels = read_number(file);
     CHECK_OK(carvel_scheme_desc_init(&it->scheme, sizeof it->scheme));
-    it->scheme.family = CARVEL_SCHEME_AVERAGING;
+    it->scheme.family = (int32_t)read_number(file);
     it->scheme.corner_rule = (int32_t)read_number(file);
     it->scheme.boundary = (int32_t)read_number(file);
     it->scheme.pass_count = read_number(file);

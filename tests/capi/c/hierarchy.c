@@ -16,7 +16,7 @@ static const double ROUNDING = 1e-13;
 /* The arrays of a level's mesh. */
 typedef struct arrays {
     carvel_counts counts;
-    uint32_t *offsets, *vertices, *twins, *face_of, *next;
+    uint32_t *offsets, *vertices, *twins, *edges, *face_of, *next;
 } arrays;
 
 static void take_arrays(arrays *it, const carvel_mesh *mesh)
@@ -27,11 +27,13 @@ static void take_arrays(arrays *it, const carvel_mesh *mesh)
     it->offsets = TAKE(uint32_t, it->counts.faces + 1);
     it->vertices = TAKE(uint32_t, it->counts.corners);
     it->twins = TAKE(uint32_t, it->counts.corners);
+    it->edges = TAKE(uint32_t, it->counts.corners);
     it->face_of = TAKE(uint32_t, it->counts.corners);
     it->next = TAKE(uint32_t, it->counts.corners);
     CHECK_OK(carvel_mesh_face_offsets(mesh, it->offsets, it->counts.faces + 1, failure));
     CHECK_OK(carvel_mesh_face_vertices(mesh, it->vertices, it->counts.corners, failure));
     CHECK_OK(carvel_mesh_corner_twins(mesh, it->twins, it->counts.corners, failure));
+    CHECK_OK(carvel_mesh_corner_edges(mesh, it->edges, it->counts.corners, failure));
     for (f = 0; f < it->counts.faces; f++)
         for (c = it->offsets[f]; c < it->offsets[f + 1]; c++) {
             it->face_of[c] = (uint32_t)f;
@@ -44,6 +46,7 @@ static void free_arrays(arrays *it)
     free(it->offsets);
     free(it->vertices);
     free(it->twins);
+    free(it->edges);
     free(it->face_of);
     free(it->next);
 }
@@ -188,7 +191,84 @@ static void check_complete(const step *it, int lays_row)
         CHECK_UINT(1, faces_from(it, CARVEL_ORIGIN_FACE, f));
 }
 
-static void check_lineage(const carvel_hierarchy *hierarchy, uint32_t level, int lays_row)
+/* ----------------------------------------------------------- primal lineage */
+
+/* A vertex of a refined face must have this origin; edges are compared by number. */
+static void check_comes(const step *it, uint32_t corner, uint32_t kind, uint32_t index)
+{
+    carvel_origin origin = it->vertices[it->child.vertices[corner]];
+    CHECK_UINT(kind, origin.kind);
+    if (kind != CARVEL_ORIGIN_EDGE)
+        CHECK_UINT(index, origin.index);
+    else if (CHECK(origin.index < it->parent.counts.corners))
+        CHECK_UINT(it->parent.edges[index], it->parent.edges[origin.index]);
+}
+
+static uint32_t before(const arrays *it, uint32_t corner)
+{
+    uint32_t first = it->offsets[it->face_of[corner]];
+    return corner > first ? corner - 1 : it->offsets[it->face_of[corner] + 1] - 1;
+}
+
+/* The face in a corner: from the vertex through the edge ahead and, if it is a quad,
+ * the middle, to the edge behind. */
+static void check_face_in_corner(const step *it, uint32_t face, uint32_t corner)
+{
+    uint32_t first = it->child.offsets[face], last = it->child.offsets[face + 1] - 1;
+    check_comes(it, first, CARVEL_ORIGIN_VERTEX, it->parent.vertices[corner]);
+    check_comes(it, first + 1, CARVEL_ORIGIN_EDGE, corner);
+    if (last - first == 3)
+        check_comes(it, first + 2, CARVEL_ORIGIN_FACE, it->parent.face_of[corner]);
+    check_comes(it, last, CARVEL_ORIGIN_EDGE, before(&it->parent, corner));
+}
+
+/* Quads in the order of the corners, or triangles with one in the middle of three. */
+static void check_primal_faces(const step *it, int triangles)
+{
+    uint32_t corner = 0, f, i;
+    for (f = 0; f < it->child.counts.faces; f++) {
+        if (triangles && f % 4 == 3) {
+            CHECK_UINT(CARVEL_ORIGIN_FACE, it->faces[f].kind);
+            CHECK_UINT(f / 4, it->faces[f].index);
+            for (i = 0; i < 3; i++)
+                check_comes(it, it->child.offsets[f] + i, CARVEL_ORIGIN_EDGE,
+                            before(&it->parent, corner - 3 + i));
+            continue;
+        }
+        CHECK_UINT(CARVEL_ORIGIN_CORNER, it->faces[f].kind);
+        CHECK_UINT(corner, it->faces[f].index);
+        check_face_in_corner(it, f, corner++);
+    }
+    CHECK_UINT(it->parent.counts.corners, corner);
+}
+
+/* Old vertices, then edges by number, then faces. */
+static void check_primal_vertices(const step *it, int triangles)
+{
+    const carvel_counts *parent = &it->parent.counts;
+    uint64_t v, edges = parent->vertices + parent->edges;
+    CHECK_UINT(edges + (triangles ? 0 : parent->faces), it->child.counts.vertices);
+    for (v = 0; v < it->child.counts.vertices; v++) {
+        carvel_origin origin = it->vertices[v];
+        if (v < parent->vertices) {
+            CHECK_UINT(CARVEL_ORIGIN_VERTEX, origin.kind);
+            CHECK_UINT(v, origin.index);
+        } else if (v < edges) {
+            CHECK_UINT(CARVEL_ORIGIN_EDGE, origin.kind);
+            if (CHECK(origin.index < parent->corners))
+                CHECK_UINT(v - parent->vertices, it->parent.edges[origin.index]);
+        } else {
+            CHECK_UINT(CARVEL_ORIGIN_FACE, origin.kind);
+            CHECK_UINT(v - edges, origin.index);
+        }
+    }
+}
+
+/* How a scheme splits: DUAL, laying a ROW along the boundary or not, or one of the
+ * primal splits. */
+enum split { DUAL, ROW, QUADS, TRIANGLES };
+
+static void check_lineage(const carvel_hierarchy *hierarchy, uint32_t level, int split)
 {
     carvel_mesh *before = level_mesh(hierarchy, level - 1), *after = level_mesh(hierarchy, level);
     step it;
@@ -200,8 +280,13 @@ static void check_lineage(const carvel_hierarchy *hierarchy, uint32_t level, int
                                              it.child.counts.vertices, failure));
     CHECK_OK(carvel_hierarchy_face_origins(hierarchy, level, it.faces, it.child.counts.faces,
                                            failure));
-    check_face_parents(&it);
-    check_complete(&it, lays_row);
+    if (split == DUAL || split == ROW) {
+        check_face_parents(&it);
+        check_complete(&it, split == ROW);
+    } else {
+        check_primal_faces(&it, split == TRIANGLES);
+        check_primal_vertices(&it, split == TRIANGLES);
+    }
     free(it.vertices);
     free(it.faces);
     free_arrays(&it.parent);
@@ -369,7 +454,7 @@ static uint64_t passes_of(const carvel_scheme *scheme)
     return count;
 }
 
-static void check_hierarchy(const poly *control, const carvel_scheme *scheme, int lays_row)
+static void check_hierarchy(const poly *control, const carvel_scheme *scheme, int split)
 {
     carvel_mesh *mesh = poly_mesh(control), *kept = poly_mesh(control);
     carvel_hierarchy *hierarchy = hierarchy_of(mesh, scheme, LEVELS);
@@ -382,10 +467,10 @@ static void check_hierarchy(const poly *control, const carvel_scheme *scheme, in
         check_level(hierarchy, kept, scheme, level);
         check_refiner(hierarchy, kept, scheme, control, level);
     }
-    check_lineage(hierarchy, 1, lays_row);
+    check_lineage(hierarchy, 1, split);
     /* The row is laid once, and refined along itself from then on; without one
      * nothing is ever laid. */
-    check_lineage(hierarchy, 2, 0);
+    check_lineage(hierarchy, 2, split == ROW ? DUAL : split);
     check_rows(hierarchy, passes, control);
     check_no_more_stages(hierarchy, passes);
     check_not_built(hierarchy);
@@ -398,9 +483,32 @@ static void check_family(const poly *control, int32_t family, int open)
     int32_t boundary;
     for (boundary = 0; boundary < 3; boundary++) {
         carvel_scheme *scheme = scheme_of(family, boundary);
-        check_hierarchy(control, scheme, open && boundary != CARVEL_BOUNDARY_NONE);
+        check_hierarchy(control, scheme, open && boundary != CARVEL_BOUNDARY_NONE ? ROW : DUAL);
         carvel_scheme_destroy(scheme);
     }
+}
+
+static void check_primal(const poly *control, int32_t family, int split)
+{
+    int32_t boundary;
+    for (boundary = 0; boundary < 3; boundary++) {
+        carvel_scheme *scheme = scheme_of(family, boundary);
+        check_hierarchy(control, scheme, split);
+        carvel_scheme_destroy(scheme);
+    }
+}
+
+/* An odd degree is primal, and has passes to be told. */
+static void check_odd_spline(const poly *control)
+{
+    carvel_scheme_desc desc;
+    carvel_scheme *scheme = NULL;
+    CHECK_OK(carvel_scheme_desc_init(&desc, sizeof desc));
+    desc.family = CARVEL_SCHEME_B_SPLINE;
+    desc.degree = 5;
+    CHECK_OK(carvel_scheme_create(&desc, &scheme, failure));
+    check_hierarchy(control, scheme, QUADS);
+    carvel_scheme_destroy(scheme);
 }
 
 /* Meshes had from a hierarchy live on, and so does a scheme's work. */
@@ -424,7 +532,10 @@ static void check_lives_on(void)
 
 int main(void)
 {
+    static const uint32_t strip_sizes[3] = { 3, 3, 3 };
+    static const uint32_t strip_indices[9] = { 0, 1, 2, 2, 1, 3, 2, 3, 4 };
     poly *cube = poly_cube(), *grid = poly_grid(3, 2), *mixed = poly_mixed();
+    poly *octahedron = poly_octahedron(), *strip = poly_of(6, 3, strip_sizes, strip_indices);
     check_begin();
     check_context("cube");
     check_family(cube, CARVEL_SCHEME_THREE_POINT, 0);
@@ -434,7 +545,17 @@ int main(void)
     check_context("mixed");
     check_family(mixed, CARVEL_SCHEME_THREE_POINT, 1);
     check_family(mixed, CARVEL_SCHEME_QUARTIC, 1);
+    check_context("primal");
+    check_primal(cube, CARVEL_SCHEME_CATMULL_CLARK, QUADS);
+    check_primal(mixed, CARVEL_SCHEME_CATMULL_CLARK, QUADS);
+    check_primal(mixed, CARVEL_SCHEME_BILINEAR, QUADS);
+    check_primal(strip, CARVEL_SCHEME_CATMULL_CLARK, QUADS);
+    check_primal(octahedron, CARVEL_SCHEME_LOOP, TRIANGLES);
+    check_primal(strip, CARVEL_SCHEME_LOOP, TRIANGLES);
+    check_odd_spline(mixed);
     check_lives_on();
+    poly_free(octahedron);
+    poly_free(strip);
     poly_free(cube);
     poly_free(grid);
     poly_free(mixed);

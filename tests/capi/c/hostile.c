@@ -435,7 +435,7 @@ static void check_layouts(void)
     desc.face_count = 2;
     refuse_desc(CARVEL_STATUS_FACE_TOO_SMALL, &desc);
     desc = quad_desc();
-    desc.non_manifold = 2;
+    desc.non_manifold = 3;
     refuse_desc(CARVEL_STATUS_PARAMETER_OUT_OF_RANGE, &desc);
     desc.non_manifold = -1;
     refuse_desc(CARVEL_STATUS_PARAMETER_OUT_OF_RANGE, &desc);

@@ -159,6 +159,7 @@ static void fixture_free(fixture *it)
 DEFINE_INIT(carvel_context_desc)
 DEFINE_INIT(carvel_scheme_desc)
 DEFINE_INIT(carvel_mesh_desc)
+DEFINE_INIT(carvel_channel_desc)
 DEFINE_INIT(carvel_counts)
 DEFINE_INIT(carvel_survey)
 DEFINE_INIT(carvel_bytes)
@@ -278,7 +279,9 @@ static void check_queries(const fixture *with)
         offsetof(carvel_survey, anchored),          offsetof(carvel_survey, components),
         offsetof(carvel_survey, boundary_loops),    offsetof(carvel_survey, isolated_vertices),
         offsetof(carvel_survey, euler_characteristic),
-        offsetof(carvel_survey, corner_tags),       offsetof(carvel_survey, bytes)
+        offsetof(carvel_survey, corner_tags),       offsetof(carvel_survey, bytes),
+        offsetof(carvel_survey, creases),           offsetof(carvel_survey, sharp_vertices),
+        offsetof(carvel_survey, holes)
     };
     static const size_t bytes[] = { offsetof(carvel_bytes, level),
                                     offsetof(carvel_bytes, topology),
@@ -359,7 +362,10 @@ static versioned scheme_version(void)
         offsetof(carvel_scheme_desc, family),   offsetof(carvel_scheme_desc, corner_rule),
         offsetof(carvel_scheme_desc, boundary), offsetof(carvel_scheme_desc, w),
         offsetof(carvel_scheme_desc, degree),   offsetof(carvel_scheme_desc, passes),
-        offsetof(carvel_scheme_desc, pass_count)
+        offsetof(carvel_scheme_desc, pass_count),
+        offsetof(carvel_scheme_desc, creasing), offsetof(carvel_scheme_desc, triangle_rule),
+        offsetof(carvel_scheme_desc, loop_weights),
+        offsetof(carvel_scheme_desc, reserved)
     };
     return VERSIONED(carvel_scheme_desc, ends);
 }
@@ -440,7 +446,7 @@ static void check_scheme_values(void)
     carvel_scheme_desc desc;
     memset(passes, 0, sizeof passes);
     CHECK_OK(carvel_scheme_desc_init(&desc, sizeof desc));
-    SCHEME(PARAMETER_OUT_OF_RANGE, desc.family = 5);
+    SCHEME(PARAMETER_OUT_OF_RANGE, desc.family = 9);
     SCHEME(PARAMETER_OUT_OF_RANGE, desc.family = -1);
     SCHEME(PARAMETER_OUT_OF_RANGE, desc.family = INT32_MAX);
     SCHEME(PARAMETER_OUT_OF_RANGE, desc.corner_rule = 2);
@@ -458,8 +464,9 @@ static void check_scheme_values(void)
     SCHEME(PARAMETER_OUT_OF_RANGE, THREE_POINT(INT64_MAX, 1));
     SCHEME(OK, SPLINE(2));
     SCHEME(OK, SPLINE(64));
+    SCHEME(OK, SPLINE(1));
+    SCHEME(OK, SPLINE(65));
     SCHEME(PARAMETER_OUT_OF_RANGE, SPLINE(0));
-    SCHEME(PARAMETER_OUT_OF_RANGE, SPLINE(3));
     SCHEME(PARAMETER_OUT_OF_RANGE, SPLINE(66));
     SCHEME(PARAMETER_OUT_OF_RANGE, SPLINE(((uint64_t)1 << 32) + 4));
     SCHEME(PARAMETER_OUT_OF_RANGE, SPLINE(UINT64_MAX));
@@ -475,6 +482,81 @@ static void check_scheme_values(void)
     SCHEME(INVALID_NUMBER, ONE_PASS(INT64_MIN, INT64_MIN));
     SCHEME(PARAMETER_OUT_OF_RANGE, PASSES(passes, 65));
     SCHEME(PARAMETER_OUT_OF_RANGE, PASSES(passes, UINT64_MAX));
+}
+
+#define CATMULL_CLARK(change) (desc.family = CARVEL_SCHEME_CATMULL_CLARK, (change))
+#define LOOP(change) (desc.family = CARVEL_SCHEME_LOOP, (change))
+#define BILINEAR(change) (desc.family = CARVEL_SCHEME_BILINEAR, (change))
+#define PRIMAL(list, n) (PASSES(list, n), desc.family = CARVEL_SCHEME_PRIMAL)
+
+/* Options of the primal schemes, each with its own family and with another. */
+static void check_primal_values(void)
+{
+    carvel_fraction passes[1] = { { 1, 2 } };
+    carvel_scheme_desc desc;
+    CHECK_OK(carvel_scheme_desc_init(&desc, sizeof desc));
+    SCHEME(OK, CATMULL_CLARK(desc.creasing = CARVEL_CREASING_CHAIKIN));
+    SCHEME(OK, LOOP(desc.creasing = CARVEL_CREASING_CHAIKIN));
+    SCHEME(PARAMETER_OUT_OF_RANGE, CATMULL_CLARK(desc.creasing = 2));
+    SCHEME(PARAMETER_OUT_OF_RANGE, LOOP(desc.creasing = -1));
+    SCHEME(PARAMETER_OUT_OF_RANGE, BILINEAR(desc.creasing = CARVEL_CREASING_CHAIKIN));
+    SCHEME(PARAMETER_OUT_OF_RANGE, desc.creasing = CARVEL_CREASING_CHAIKIN);
+    SCHEME(OK, CATMULL_CLARK(desc.triangle_rule = CARVEL_TRIANGLE_RULE_SMOOTH));
+    SCHEME(PARAMETER_OUT_OF_RANGE, CATMULL_CLARK(desc.triangle_rule = 2));
+    SCHEME(PARAMETER_OUT_OF_RANGE, LOOP(desc.triangle_rule = CARVEL_TRIANGLE_RULE_SMOOTH));
+    SCHEME(OK, LOOP(desc.loop_weights = CARVEL_LOOP_WEIGHTS_WARREN));
+    SCHEME(PARAMETER_OUT_OF_RANGE, LOOP(desc.loop_weights = 2));
+    SCHEME(PARAMETER_OUT_OF_RANGE, LOOP(desc.loop_weights = INT32_MIN));
+    SCHEME(PARAMETER_OUT_OF_RANGE, CATMULL_CLARK(desc.loop_weights = 1));
+    SCHEME(PARAMETER_OUT_OF_RANGE, CATMULL_CLARK(desc.corner_rule = 1));
+    SCHEME(PARAMETER_OUT_OF_RANGE, LOOP(desc.corner_rule = 1));
+    SCHEME(PARAMETER_OUT_OF_RANGE, BILINEAR(desc.corner_rule = 1));
+    SCHEME(PARAMETER_OUT_OF_RANGE, CATMULL_CLARK(desc.reserved = 1));
+    SCHEME(PARAMETER_OUT_OF_RANGE, desc.reserved = -1);
+    SCHEME(PARAMETER_OUT_OF_RANGE, LOOP(desc.degree = 3));
+    SCHEME(PARAMETER_OUT_OF_RANGE, BILINEAR(FRACTION(desc.w, 1, 32)));
+    SCHEME(PARAMETER_OUT_OF_RANGE, CATMULL_CLARK((desc.passes = passes, desc.pass_count = 1)));
+    SCHEME(OK, PRIMAL(passes, 1));
+    SCHEME(OK, (PRIMAL(passes, 1), desc.corner_rule = 1));
+    SCHEME(PARAMETER_OUT_OF_RANGE, PRIMAL(passes, 65));
+    SCHEME(NULL_POINTER, PRIMAL(NULL, 1));
+    SCHEME(MISALIGNED, PRIMAL(OFF(const carvel_fraction, passes), 1));
+    SCHEME(INVALID_NUMBER, (PRIMAL(passes, 1), FRACTION(passes[0], 1, 0)));
+}
+
+static void check_holes(const fixture *with)
+{
+    /* All four faces of the open mesh are at its boundary. */
+    carvel_scheme *scheme = scheme_of(CARVEL_SCHEME_CATMULL_CLARK, CARVEL_BOUNDARY_NONE);
+    const carvel_mesh *mesh = with->mesh;
+    uint32_t *out;
+    uint64_t count = 99;
+    guarded room;
+    guarded_take(&room, 6 * sizeof *out);
+    out = (uint32_t *)(void *)room.bytes;
+    REFUSE(NULL_POINTER, carvel_scheme_holes(NULL, mesh, out, 4, &count, failure));
+    REFUSE(NULL_POINTER, carvel_scheme_holes(scheme, NULL, out, 4, &count, failure));
+    REFUSE(NULL_POINTER, carvel_scheme_holes(scheme, mesh, NULL, 4, &count, failure));
+    REFUSE(MISALIGNED,
+           carvel_scheme_holes(OFF(carvel_scheme, scheme), mesh, out, 4, &count, failure));
+    REFUSE(MISALIGNED,
+           carvel_scheme_holes(scheme, OFF(carvel_mesh, mesh), out, 4, &count, failure));
+    REFUSE(MISALIGNED,
+           carvel_scheme_holes(scheme, mesh, OFF(uint32_t, out), 4, &count, failure));
+    REFUSE(MISALIGNED,
+           carvel_scheme_holes(scheme, mesh, out, 4, OFF(uint64_t, &count), failure));
+    REFUSE(MISALIGNED,
+           carvel_scheme_holes(scheme, mesh, out, 4, NULL, OFF(carvel_error, failure)));
+    REFUSE(OVERLAP, carvel_scheme_holes(scheme, mesh, out, 4, (uint64_t *)(void *)out, failure));
+    CHECK_UINT(99, count);
+    REFUSE(BUFFER_TOO_SMALL, carvel_scheme_holes(scheme, mesh, out, 3, &count, failure));
+    CHECK_UINT(4, count);
+    CHECK(untouched(&room, 0));
+    CHECK_OK(carvel_scheme_holes(scheme, mesh, NULL, 0, &count, failure));
+    CHECK_OK(carvel_scheme_holes(scheme, mesh, out, UINT64_MAX, NULL, failure));
+    CHECK(untouched(&room, 4 * sizeof *out));
+    guarded_free(&room);
+    carvel_scheme_destroy(scheme);
 }
 
 static void check_passes(void)
@@ -518,7 +600,14 @@ static versioned mesh_version(void)
         offsetof(carvel_mesh_desc, face_offsets),  offsetof(carvel_mesh_desc, face_vertices),
         offsetof(carvel_mesh_desc, face_vertex_count),
         offsetof(carvel_mesh_desc, non_manifold),  offsetof(carvel_mesh_desc, anchored),
-        offsetof(carvel_mesh_desc, corner_tags),   offsetof(carvel_mesh_desc, corner_tag_count)
+        offsetof(carvel_mesh_desc, corner_tags),   offsetof(carvel_mesh_desc, corner_tag_count),
+        offsetof(carvel_mesh_desc, crease_vertices),
+        offsetof(carvel_mesh_desc, crease_sharpness),
+        offsetof(carvel_mesh_desc, crease_count),
+        offsetof(carvel_mesh_desc, sharp_vertices),
+        offsetof(carvel_mesh_desc, vertex_sharpness),
+        offsetof(carvel_mesh_desc, sharp_vertex_count),
+        offsetof(carvel_mesh_desc, holes),         offsetof(carvel_mesh_desc, hole_count)
     };
     return VERSIONED(carvel_mesh_desc, ends);
 }
@@ -582,6 +671,73 @@ static void check_mesh_pointers(const fixture *with)
     MADE_NOTHING(mesh, MISALIGNED, carvel_mesh_create(NULL, &desc, &mesh, failure));
 }
 
+static int mesh_refused(carvel_mesh_desc *desc, const fixture *with, carvel_status status,
+                        const char *what, int line)
+{
+    carvel_mesh *mesh = (carvel_mesh *)desc;
+    int ok = check_status(status, carvel_mesh_create(NULL, desc, &mesh, failure), what, __FILE__,
+                          line);
+    CHECK(mesh == NULL);
+    poly_describe(with->control, desc);
+    return ok;
+}
+
+#define MESH(status, change) \
+    ((change), mesh_refused(&desc, with, CARVEL_STATUS_##status, #change, __LINE__))
+#define CREASES(ends, by, n) \
+    (desc.crease_vertices = (ends), desc.crease_sharpness = (by), desc.crease_count = (n))
+#define SHARP(list, by, n) \
+    (desc.sharp_vertices = (list), desc.vertex_sharpness = (by), desc.sharp_vertex_count = (n))
+#define HOLES(list, n) (desc.holes = (list), desc.hole_count = (n))
+
+static void check_tag_pointers(const fixture *with)
+{
+    static const uint32_t ends[2] = { 2, 3 };
+    static const float sharpness[1] = { 1 };
+    carvel_mesh_desc desc;
+    poly_describe(with->control, &desc);
+    MESH(NULL_POINTER, CREASES(NULL, sharpness, 1));
+    MESH(NULL_POINTER, CREASES(ends, NULL, 1));
+    MESH(MISALIGNED, CREASES(OFF(const uint32_t, ends), sharpness, 1));
+    MESH(MISALIGNED, CREASES(ends, OFF(const float, sharpness), 1));
+    MESH(TOO_LARGE, CREASES(ends, sharpness, UINT32_MAX));
+    MESH(TOO_LARGE, CREASES(ends, sharpness, ((uint64_t)1 << 63) + 1));
+    MESH(NULL_POINTER, SHARP(NULL, sharpness, 1));
+    MESH(NULL_POINTER, SHARP(ends, NULL, 1));
+    MESH(MISALIGNED, SHARP(OFF(const uint32_t, ends), sharpness, 1));
+    MESH(MISALIGNED, SHARP(ends, OFF(const float, sharpness), 1));
+    MESH(TOO_LARGE, SHARP(ends, sharpness, UINT64_MAX));
+    MESH(NULL_POINTER, HOLES(NULL, 1));
+    MESH(MISALIGNED, HOLES(OFF(const uint32_t, ends), 1));
+    MESH(TOO_LARGE, HOLES(ends, (uint64_t)1 << 32));
+}
+
+static void check_tag_values(const fixture *with)
+{
+    static const uint32_t ends[4] = { 2, 3, 3, 2 }, apart[2] = { 0, 4 }, absent[2] = { 2, 13 };
+    static const uint32_t no_face[1] = { 4 };
+    static const float one[1] = { 1 }, two[2] = { 1, 2 }, negative[1] = { -1 };
+    float nan[1];
+    carvel_mesh_desc desc;
+    memset(nan, 0xff, sizeof nan);
+    poly_describe(with->control, &desc);
+    MESH(PARAMETER_OUT_OF_RANGE, desc.non_manifold = 3);
+    MESH(PARAMETER_OUT_OF_RANGE, desc.non_manifold = -1);
+    MESH(INVALID_TAG, CREASES(apart, one, 1));
+    MESH(INVALID_TAG, CREASES(absent, one, 1));
+    MESH(INVALID_TAG, CREASES(ends, negative, 1));
+    MESH(INVALID_TAG, CREASES(ends, nan, 1));
+    MESH(INVALID_TAG, CREASES(ends, two, 2));
+    CHECK_ELEMENT(0, 0, CARVEL_ELEMENT_EDGE, 3, 2);
+    MESH(INVALID_TAG, SHARP(absent, two, 2));
+    CHECK_ELEMENT(0, 0, CARVEL_ELEMENT_VERTEX, 13, 0);
+    MESH(INVALID_TAG, SHARP(ends, negative, 1));
+    MESH(INVALID_TAG, SHARP(ends, nan, 1));
+    MESH(INVALID_TAG, SHARP(ends + 1, two, 2));
+    MESH(INVALID_TAG, HOLES(no_face, 1));
+    CHECK_ELEMENT(0, 0, CARVEL_ELEMENT_FACE, 4, 0);
+}
+
 typedef carvel_status (*array_function)(const carvel_mesh *, uint32_t *, uint64_t,
                                         carvel_error *);
 
@@ -608,15 +764,40 @@ static void check_array(const carvel_mesh *mesh, array_function get, uint64_t co
 static carvel_mesh *tagged_grid(void)
 {
     static const uint32_t tags[2] = { 1, 3 };
+    static const uint32_t ends[4] = { 3, 4, 5, 4 };
+    static const float sharpness[2] = { 1, 2 };
     poly *grid = poly_grid(2, 2);
     carvel_mesh *mesh = NULL;
     carvel_mesh_desc desc;
     poly_describe(grid, &desc);
     desc.corner_tags = tags;
     desc.corner_tag_count = 2;
+    CREASES(ends, sharpness, 2);
+    SHARP(tags, sharpness, 2);
+    HOLES(tags, 2);
     CHECK_OK(carvel_mesh_create(NULL, &desc, &mesh, failure));
     poly_free(grid);
     return mesh;
+}
+
+typedef carvel_status (*float_function)(const carvel_mesh *, float *, uint64_t, carvel_error *);
+
+static void check_floats(const carvel_mesh *mesh, float_function get, uint64_t count)
+{
+    float *out;
+    guarded room;
+    guarded_take(&room, (count + 1) * sizeof *out);
+    out = (float *)(void *)room.bytes;
+    REFUSE(NULL_POINTER, get(NULL, out, count, failure));
+    REFUSE(NULL_POINTER, get(mesh, NULL, count, failure));
+    REFUSE(MISALIGNED, get(OFF(carvel_mesh, mesh), out, count, failure));
+    REFUSE(MISALIGNED, get(mesh, OFF(float, out), count, failure));
+    REFUSE(MISALIGNED, get(mesh, out, count, OFF(carvel_error, failure)));
+    REFUSE(BUFFER_TOO_SMALL, get(mesh, out, count - 1, failure));
+    CHECK(untouched(&room, 0));
+    CHECK_OK(get(mesh, out, UINT64_MAX, failure));
+    CHECK(untouched(&room, (size_t)count * sizeof *out));
+    guarded_free(&room);
 }
 
 static void check_arrays(const fixture *with)
@@ -634,6 +815,11 @@ static void check_arrays(const fixture *with)
     check_array(with->mesh, carvel_mesh_face_sources, counts->faces);
     check_array(with->mesh, carvel_mesh_vertex_sources, counts->vertices);
     check_array(tagged, carvel_mesh_corner_tags, 2);
+    check_array(tagged, carvel_mesh_crease_vertices, 4);
+    check_floats(tagged, carvel_mesh_crease_sharpness, 2);
+    check_array(tagged, carvel_mesh_sharp_vertices, 2);
+    check_floats(tagged, carvel_mesh_vertex_sharpness, 2);
+    check_array(tagged, carvel_mesh_holes, 2);
     carvel_mesh_destroy(tagged);
 }
 
@@ -699,11 +885,38 @@ static void check_mesh_queries(const fixture *with)
     REFUSE(NULL_POINTER, carvel_mesh_validate(NULL, failure));
     REFUSE(MISALIGNED, carvel_mesh_validate(OFF(carvel_mesh, with->mesh), failure));
     REFUSE(MISALIGNED, carvel_mesh_validate(with->mesh, OFF(carvel_error, failure)));
+    CHECK_UINT(0, carvel_mesh_is_manifold(NULL));
+    CHECK_UINT(1, carvel_mesh_is_manifold(with->mesh));
     CHECK_UINT(0, counts.faces);
     CHECK_UINT(0, survey.bytes);
 }
 
 /* ---------------------------------------------------------------- predictions */
+
+/* A scheme that has no rule for the mesh, wherever the two meet. */
+static void check_unsupported(const fixture *with)
+{
+    carvel_scheme *loop = scheme_of(CARVEL_SCHEME_LOOP, 0);
+    carvel_mesh *tagged = tagged_grid();
+    carvel_hierarchy *it = NULL;
+    carvel_counts counts;
+    carvel_bytes bytes;
+    CHECK_OK(carvel_counts_init(&counts, sizeof counts));
+    CHECK_OK(carvel_bytes_init(&bytes, sizeof bytes));
+    REFUSE(UNSUPPORTED, carvel_predict_counts(with->mesh, loop, 1, &counts, failure));
+    /* The pentagon, in the caller's order. */
+    CHECK_ELEMENT(0, 0, CARVEL_ELEMENT_FACE, 2, 0);
+    REFUSE(UNSUPPORTED, carvel_predict_bytes(with->mesh, loop, 1, 3, 4, &bytes, failure));
+    MADE_NOTHING(it, UNSUPPORTED,
+                 carvel_hierarchy_create(NULL, with->mesh, loop, 1, &it, failure));
+    REFUSE(UNSUPPORTED, carvel_predict_counts(tagged, with->scheme, 1, &counts, failure));
+    MADE_NOTHING(it, UNSUPPORTED,
+                 carvel_hierarchy_create(NULL, tagged, with->scheme, 1, &it, failure));
+    CHECK_UINT(0, counts.faces);
+    CHECK_UINT(0, bytes.output);
+    carvel_mesh_destroy(tagged);
+    carvel_scheme_destroy(loop);
+}
 
 static void check_predictions(const fixture *with)
 {
@@ -746,6 +959,40 @@ static void check_predictions(const fixture *with)
 }
 
 /* ---------------------------------------------------------------- hierarchies */
+
+/* Channels have a program of their own; this is what all descriptions share. */
+static void check_channel_sizes(const fixture *with)
+{
+    static const size_t ends[] = { offsetof(carvel_channel_desc, mode),
+                                   offsetof(carvel_channel_desc, indices),
+                                   offsetof(carvel_channel_desc, index_count),
+                                   offsetof(carvel_channel_desc, value_count) };
+    versioned version = VERSIONED(carvel_channel_desc, ends);
+    carvel_channel *channel = NULL;
+    carvel_channel_desc desc;
+    uint32_t size;
+    check_init(&version);
+    CHECK_OK(carvel_channel_desc_init(&desc, sizeof desc));
+    desc.indices = with->control->indices;
+    desc.index_count = with->control->corners;
+    desc.value_count = with->control->vertices;
+    for (size = 0; size <= sizeof desc + 9; size++) {
+        carvel_channel_desc *shorter =
+            (carvel_channel_desc *)truncated(&desc, sizeof desc, size);
+        carvel_status status = carvel_channel_create(with->mesh, shorter, &channel, failure);
+        if (!is_end(&version, size))
+            CHECK_STATUS(CARVEL_STATUS_STRUCT_SIZE, status);
+        else if (size < sizeof desc)
+            /* No indices, or no values for them. */
+            CHECK(status == CARVEL_STATUS_LENGTH_MISMATCH ||
+                  status == CARVEL_STATUS_INDEX_OUT_OF_RANGE);
+        else
+            CHECK_OK(status);
+        CHECK((channel != NULL) == (status == CARVEL_STATUS_OK));
+        carvel_channel_destroy(channel);
+        free(shorter);
+    }
+}
 
 static void check_hierarchy_create(const fixture *with)
 {
@@ -960,16 +1207,23 @@ int main(void)
     check_context("schemes");
     check_scheme_pointers();
     check_scheme_values();
+    check_primal_values();
+    check_holes(&it);
     check_passes();
     check_mesh_sizes(&it);
     check_context("meshes");
     check_mesh_pointers(&it);
+    check_tag_pointers(&it);
+    check_tag_values(&it);
     check_arrays(&it);
     check_flags(&it);
     check_histogram(&it);
     check_mesh_queries(&it);
+    check_context("channels");
+    check_channel_sizes(&it);
     check_context("predictions");
     check_predictions(&it);
+    check_unsupported(&it);
     check_context("hierarchies");
     check_hierarchy_create(&it);
     check_hierarchy_queries(&it);

@@ -35,6 +35,7 @@ typedef struct TWIN(job) {
     const carvel_context *context;
     carvel_counts counts;
     REAL *positions, *attribute;
+    int32_t kind;
     TWIN(carvel_const_values) in;
     TWIN(carvel_values) out;
     TWIN(carvel_refine_input) input;
@@ -56,6 +57,8 @@ static void TWIN(describe)(TWIN(job) *it)
     it->in = TWIN(input_of)(it->attribute, before, 2);
     it->input.attributes = &it->in;
     it->input.attribute_count = 1;
+    it->kind = CARVEL_INTERPOLATION_VERTEX;
+    it->input.interpolations = &it->kind;
     it->output.face_sizes = indices_of(&it->sizes, it->counts.faces);
     it->output.face_offsets = indices_of(&it->offsets, it->counts.faces + 1);
     it->output.face_vertices = indices_of(&it->vertices, it->counts.corners);
@@ -160,6 +163,7 @@ static void TWIN(check_pointers)(TWIN(job) *it)
     REFUSED(MISALIGNED,
             it->input.attributes = OFF(TWIN(carvel_const_values), it->input.attributes));
     REFUSED(MISALIGNED, it->in.data = OFF(REAL, it->attribute));
+    REFUSED(MISALIGNED, it->input.interpolations = OFF(const int32_t, &it->kind));
     REFUSED(MISALIGNED, it->output.positions.data = OFF(REAL, it->output.positions.data));
     REFUSED(MISALIGNED, it->output.attributes = OFF(TWIN(carvel_values), it->output.attributes));
     REFUSED(MISALIGNED, it->out.data = OFF(REAL, it->out.data));
@@ -204,6 +208,10 @@ static void TWIN(check_counts)(TWIN(job) *it)
     REFUSED(PARAMETER_OUT_OF_RANGE, it->in.width = it->out.width = 0);
     REFUSED(PARAMETER_OUT_OF_RANGE, it->in.width = it->out.width = 65537);
     REFUSED(PARAMETER_OUT_OF_RANGE, it->in.width = it->out.width = UINT64_MAX);
+    REFUSED(PARAMETER_OUT_OF_RANGE, it->kind = 2);
+    REFUSED(PARAMETER_OUT_OF_RANGE, it->kind = INT32_MIN);
+    /* The fixture's scheme splits corners. */
+    REFUSED(UNSUPPORTED, it->kind = CARVEL_INTERPOLATION_VARYING);
     REFUSED(LENGTH_MISMATCH, it->out.width = 1);
     REFUSED(LENGTH_MISMATCH, it->out.width = 3);
     REFUSED(LENGTH_MISMATCH, it->out.width = UINT64_MAX);
@@ -256,6 +264,7 @@ static void TWIN(check_overlap)(TWIN(job) *it)
     REFUSED(OVERLAP, it->output.face_sources.data = (uint32_t *)(void *)&it->input.levels);
     REFUSED(OVERLAP, it->output.face_sources.data = (uint32_t *)(void *)&it->in);
     REFUSED(OVERLAP, it->output.face_sources.data = (uint32_t *)(void *)&it->out);
+    REFUSED(OVERLAP, it->output.face_sources.data = (uint32_t *)(void *)&it->kind);
     REFUSED(NULL_POINTER, it->output.face_sources.data = NULL);
     REFUSED(OVERLAP, it->out.data = it->output.positions.data);
     REFUSED(OVERLAP, it->out.data = last);
@@ -334,7 +343,10 @@ static versioned TWIN(input_version)(void)
         offsetof(TWIN(carvel_refine_input), scheme),
         offsetof(TWIN(carvel_refine_input), positions),
         offsetof(TWIN(carvel_refine_input), attributes),
-        offsetof(TWIN(carvel_refine_input), attribute_count)
+        offsetof(TWIN(carvel_refine_input), attribute_count),
+        offsetof(TWIN(carvel_refine_input), interpolations),
+        offsetof(TWIN(carvel_refine_input), channels),
+        offsetof(TWIN(carvel_refine_input), channel_count)
     };
     return versioned_of("carvel_refine_input", TWIN(init_input),
                         sizeof(TWIN(carvel_refine_input)), ends, sizeof ends / sizeof ends[0]);
@@ -350,7 +362,9 @@ static versioned TWIN(output_version)(void)
         offsetof(TWIN(carvel_refine_output), face_sources),
         offsetof(TWIN(carvel_refine_output), positions),
         offsetof(TWIN(carvel_refine_output), attributes),
-        offsetof(TWIN(carvel_refine_output), attribute_count)
+        offsetof(TWIN(carvel_refine_output), attribute_count),
+        offsetof(TWIN(carvel_refine_output), channels),
+        offsetof(TWIN(carvel_refine_output), channel_count)
     };
     return versioned_of("carvel_refine_output", TWIN(init_output),
                         sizeof(TWIN(carvel_refine_output)), ends, sizeof ends / sizeof ends[0]);
@@ -371,10 +385,12 @@ static void TWIN(check_input_sizes)(TWIN(job) *it)
             CHECK_STATUS(CARVEL_STATUS_STRUCT_SIZE, status);
         else if (size <= offsetof(TWIN(carvel_refine_input), scheme))
             CHECK_STATUS(CARVEL_STATUS_NULL_POINTER, status);
-        else if (size < sizeof it->input)
+        else if (size < offsetof(TWIN(carvel_refine_input), interpolations))
             /* No positions; no attributes where there is an output for one. */
             CHECK(status == CARVEL_STATUS_LENGTH_MISMATCH ||
                   status == CARVEL_STATUS_NULL_POINTER);
+        else
+            CHECK_OK(status);
         if (status != CARVEL_STATUS_OK)
             TWIN(check_all_untouched)(it);
         TWIN(reset)(it);
@@ -392,7 +408,7 @@ static void TWIN(check_output_sizes)(TWIN(job) *it)
         TWIN(carvel_refine_output) *output =
             (TWIN(carvel_refine_output) *)truncated(&it->output, sizeof it->output, size);
         carvel_status status;
-        if (size >= sizeof *output)
+        if (size >= offsetof(TWIN(carvel_refine_output), channels))
             output->attribute_count = 0;
         status = TWIN(carvel_refiner_refine)(it->refiner, NULL, &it->input, output, failure);
         if (!is_end(&version, size))
@@ -413,15 +429,32 @@ static void TWIN(check_output_sizes)(TWIN(job) *it)
 
 /* -------------------------------------------------------------- hierarchy */
 
-static carvel_status TWIN(run_level)(const TWIN(job) *it, uint32_t level)
+typedef carvel_status (*TWIN(level_function))(const carvel_hierarchy *, const carvel_context *,
+                                              uint32_t, const TWIN(carvel_const_values) *,
+                                              const TWIN(carvel_values) *, carvel_error *);
+
+/* The function that takes a kind of interpolation, like the one that takes none. */
+static carvel_status TWIN(interpolate)(const carvel_hierarchy *hierarchy,
+                                       const carvel_context *context, uint32_t level,
+                                       const TWIN(carvel_const_values) *values,
+                                       const TWIN(carvel_values) *out, carvel_error *error)
 {
-    return TWIN(carvel_hierarchy_refine)(it->with->hierarchy, it->context, level, &it->in,
-                                         &it->out, failure);
+    return TWIN(carvel_hierarchy_interpolate)(hierarchy, context, level,
+                                              CARVEL_INTERPOLATION_VERTEX, values, out, error);
 }
 
-static int TWIN(refused_level)(TWIN(job) *it, carvel_status status, const char *what, int line)
+static const TWIN(level_function) TWIN(level_functions)[2] = { TWIN(carvel_hierarchy_refine),
+                                                               TWIN(interpolate) };
+
+static int TWIN(refused_level)(TWIN(job) *it, carvel_status status, uint32_t level,
+                               const char *what, int line)
 {
-    int ok = check_status(status, TWIN(run_level)(it, 1), what, __FILE__, line);
+    int ok = 1, i;
+    for (i = 0; i < 2; i++) {
+        carvel_status answer = TWIN(level_functions)[i](it->with->hierarchy, it->context, level,
+                                                        &it->in, &it->out, failure);
+        ok = check_status(status, answer, what, __FILE__, line) && ok;
+    }
     TWIN(check_all_untouched)(it);
     TWIN(describe)(it);
     return ok;
@@ -429,7 +462,7 @@ static int TWIN(refused_level)(TWIN(job) *it, carvel_status status, const char *
 
 #ifndef LEVEL_REFUSED
 #define LEVEL_REFUSED(status, change) \
-    ((change), TWIN(refused_level)(it, CARVEL_STATUS_##status, #change, __LINE__))
+    ((change), TWIN(refused_level)(it, CARVEL_STATUS_##status, 1, #change, __LINE__))
 #endif
 
 static void TWIN(check_level_values)(TWIN(job) *it)
@@ -452,37 +485,52 @@ static void TWIN(check_level_values)(TWIN(job) *it)
     LEVEL_REFUSED(TOO_LARGE, it->out.stride = (uint64_t)1 << 61);
     LEVEL_REFUSED(OVERLAP, it->in.data = it->out.data + 2 * it->counts.vertices - 1);
     LEVEL_REFUSED(OVERLAP, it->out.data = it->attribute);
-    CHECK_STATUS(CARVEL_STATUS_PARAMETER_OUT_OF_RANGE, TWIN(run_level)(it, 2));
-    CHECK_STATUS(CARVEL_STATUS_PARAMETER_OUT_OF_RANGE, TWIN(run_level)(it, UINT32_MAX));
+    TWIN(refused_level)(it, CARVEL_STATUS_PARAMETER_OUT_OF_RANGE, 2, "level 2", __LINE__);
+    TWIN(refused_level)(it, CARVEL_STATUS_PARAMETER_OUT_OF_RANGE, UINT32_MAX, "level", __LINE__);
+}
+
+static void TWIN(check_level_kinds)(TWIN(job) *it)
+{
+    const carvel_hierarchy *hierarchy = it->with->hierarchy;
+    CHECK_STATUS(CARVEL_STATUS_PARAMETER_OUT_OF_RANGE,
+                 TWIN(carvel_hierarchy_interpolate)(hierarchy, NULL, 1, 2, &it->in, &it->out,
+                                                    failure));
+    CHECK_STATUS(CARVEL_STATUS_PARAMETER_OUT_OF_RANGE,
+                 TWIN(carvel_hierarchy_interpolate)(hierarchy, NULL, 1, -1, &it->in, &it->out,
+                                                    failure));
+    CHECK_STATUS(CARVEL_STATUS_UNSUPPORTED,
+                 TWIN(carvel_hierarchy_interpolate)(hierarchy, NULL, 1,
+                                                    CARVEL_INTERPOLATION_VARYING, &it->in,
+                                                    &it->out, failure));
     TWIN(check_all_untouched)(it);
+}
+
+static void TWIN(check_arguments_of)(TWIN(job) *it, TWIN(level_function) run)
+{
+    const carvel_hierarchy *hierarchy = it->with->hierarchy;
+    CHECK_STATUS(CARVEL_STATUS_NULL_POINTER, run(NULL, NULL, 1, &it->in, &it->out, failure));
+    CHECK_STATUS(CARVEL_STATUS_NULL_POINTER, run(hierarchy, NULL, 1, NULL, &it->out, failure));
+    CHECK_STATUS(CARVEL_STATUS_NULL_POINTER, run(hierarchy, NULL, 1, &it->in, NULL, failure));
+    CHECK_STATUS(CARVEL_STATUS_MISALIGNED, run(OFF(carvel_hierarchy, hierarchy), NULL, 1, &it->in,
+                                               &it->out, failure));
+    CHECK_STATUS(CARVEL_STATUS_MISALIGNED,
+                 run(hierarchy, NULL, 1, OFF(TWIN(carvel_const_values), &it->in), &it->out,
+                     failure));
+    CHECK_STATUS(CARVEL_STATUS_MISALIGNED, run(hierarchy, NULL, 1, &it->in,
+                                               OFF(TWIN(carvel_values), &it->out), failure));
+    CHECK_STATUS(CARVEL_STATUS_MISALIGNED, run(hierarchy, NULL, 1, &it->in, &it->out,
+                                               OFF(carvel_error, failure)));
+    TWIN(check_all_untouched)(it);
+    it->out.count++;
+    CHECK_OK(run(hierarchy, NULL, 1, &it->in, &it->out, failure));
+    CHECK(untouched(&it->values, (size_t)it->counts.vertices * 2 * sizeof(REAL)));
+    TWIN(reset)(it);
 }
 
 static void TWIN(check_level_arguments)(TWIN(job) *it)
 {
-    const carvel_hierarchy *hierarchy = it->with->hierarchy;
-    CHECK_STATUS(CARVEL_STATUS_NULL_POINTER, TWIN(carvel_hierarchy_refine)(NULL, NULL, 1, &it->in,
-                                                                           &it->out, failure));
-    CHECK_STATUS(CARVEL_STATUS_NULL_POINTER,
-                 TWIN(carvel_hierarchy_refine)(hierarchy, NULL, 1, NULL, &it->out, failure));
-    CHECK_STATUS(CARVEL_STATUS_NULL_POINTER,
-                 TWIN(carvel_hierarchy_refine)(hierarchy, NULL, 1, &it->in, NULL, failure));
-    CHECK_STATUS(CARVEL_STATUS_MISALIGNED,
-                 TWIN(carvel_hierarchy_refine)(OFF(carvel_hierarchy, hierarchy), NULL, 1, &it->in,
-                                               &it->out, failure));
-    CHECK_STATUS(CARVEL_STATUS_MISALIGNED,
-                 TWIN(carvel_hierarchy_refine)(hierarchy, NULL, 1,
-                                               OFF(TWIN(carvel_const_values), &it->in), &it->out,
-                                               failure));
-    CHECK_STATUS(CARVEL_STATUS_MISALIGNED,
-                 TWIN(carvel_hierarchy_refine)(hierarchy, NULL, 1, &it->in,
-                                               OFF(TWIN(carvel_values), &it->out), failure));
-    CHECK_STATUS(CARVEL_STATUS_MISALIGNED,
-                 TWIN(carvel_hierarchy_refine)(hierarchy, NULL, 1, &it->in, &it->out,
-                                               OFF(carvel_error, failure)));
-    TWIN(check_all_untouched)(it);
-    it->out.count++;
-    CHECK_OK(TWIN(run_level)(it, 1));
-    CHECK(untouched(&it->values, (size_t)it->counts.vertices * 2 * sizeof(REAL)));
+    TWIN(check_arguments_of)(it, TWIN(level_functions)[0]);
+    TWIN(check_arguments_of)(it, TWIN(level_functions)[1]);
 }
 
 static void TWIN(check_refining)(const fixture *with)
@@ -491,7 +539,8 @@ static void TWIN(check_refining)(const fixture *with)
         TWIN(check_pointers),     TWIN(check_arguments),    TWIN(check_counts),
         TWIN(check_strides),      TWIN(check_overlap),      TWIN(check_interleaved),
         TWIN(check_larger),       TWIN(check_input_sizes),  TWIN(check_output_sizes),
-        TWIN(check_level_values), TWIN(check_level_arguments)
+        TWIN(check_level_values), TWIN(check_level_arguments),
+        TWIN(check_level_kinds)
     };
     size_t i;
     for (i = 0; i < sizeof parts / sizeof parts[0]; i++) {

@@ -1,6 +1,8 @@
 /* Everything else of carvel.h, reached through C++. */
 #include "check.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cstring>
 
 static const Pyramid pyramid;
@@ -97,6 +99,152 @@ static void options_reach_the_mesh()
           carvel::predict_counts(plain, scheme, 2).faces);
 }
 
+/* Tags go in, come out, and tell in the surface. */
+static void tags_reach_the_mesh()
+{
+    const std::uint32_t ring[] = {0, 1, 1, 2, 2, 3, 3, 0};
+    const float by[] = {10.0F, 10.0F, 10.0F, 2.5F};
+    const std::uint32_t top[] = {4};
+    const float one[] = {1.0F};
+    const std::uint32_t base[] = {0};
+    carvel::MeshOptions options;
+    options.crease_vertices = ring;
+    options.crease_sharpness = by;
+    options.sharp_vertices = top;
+    options.vertex_sharpness = one;
+    options.holes = base;
+    const carvel::Mesh mesh = carvel::Mesh::create(pyramid.faces(), options);
+    CHECK(mesh.crease_vertices().size() == 8 && mesh.crease_sharpness().size() == 4);
+    CHECK(mesh.sharp_vertices() == Indices{4} && mesh.vertex_sharpness()[0] == 1.0F);
+    CHECK(mesh.holes() == Indices{4} && mesh.is_manifold() && !carvel::Mesh().is_manifold());
+    const carvel::Scheme scheme = carvel::Scheme::create({CARVEL_SCHEME_CATMULL_CLARK});
+    CHECK(scheme.holes(mesh) == Indices{4});
+    const carvel::Refined<double> once = carvel::refine(mesh, scheme, 1, pyramid.points);
+    CHECK(once.positions[12] == 1.0 && once.positions[14] == 2.0);
+    const auto left = carvel::Hierarchy::create(mesh, scheme, 1).mesh(1).crease_sharpness();
+    CHECK(left.size() == 8 && std::count(left.begin(), left.end(), 1.5F) == 2);
+    const auto open = carvel::Scheme::create(
+        {CARVEL_SCHEME_CATMULL_CLARK, CARVEL_CORNER_RULE_COSINE, CARVEL_BOUNDARY_NONE});
+    const std::uint32_t strip[] = {0, 1, 4, 3, 1, 2, 5, 4};
+    const carvel::Mesh rim = carvel::Mesh::create(carvel::Faces::of_size(6, 4, strip));
+    CHECK((open.holes(rim) == Indices{0, 1}));
+    CHECK(THROWN(open.holes(carvel::Mesh())) == CARVEL_STATUS_NULL_POINTER);
+
+    options.crease_sharpness = one;
+    CHECK(THROWN(carvel::Mesh::create(pyramid.faces(), options)) ==
+          CARVEL_STATUS_LENGTH_MISMATCH);
+    options.crease_sharpness = by;
+    options.vertex_sharpness = {};
+    CHECK(THROWN(carvel::Mesh::create(pyramid.faces(), options)) ==
+          CARVEL_STATUS_LENGTH_MISMATCH);
+
+    const std::uint32_t book[] = {0, 1, 2, 1, 0, 3, 0, 1, 4};
+    options = {};
+    options.non_manifold = CARVEL_NON_MANIFOLD_SHARPEN;
+    const carvel::Mesh pages = carvel::Mesh::create(carvel::Faces::of_size(5, 3, book), options);
+    CHECK(!pages.is_manifold() && pages.counts().vertices == 5 && pages.counts().edges == 7);
+}
+
+static void primal_options_reach_the_scheme()
+{
+    const Indices triangles = {0, 2, 1, 0, 1, 3, 1, 2, 3, 2, 0, 3};
+    const carvel::Mesh mesh = carvel::Mesh::create(carvel::Faces::of_size(4, 3, triangles));
+    const std::vector<double> points = {1, 1, 1, 1, -1, -1, -1, 1, -1, -1, -1, 1};
+    const auto first = [&](const carvel::SchemeDesc &desc) {
+        return carvel::refine(mesh, carvel::Scheme::create(desc), 1, points).positions;
+    };
+    carvel::SchemeDesc desc = {CARVEL_SCHEME_LOOP};
+    const std::vector<double> loop = first(desc);
+    CHECK(loop.size() == 3 * (4 + 6));
+    desc.creasing = CARVEL_CREASING_CHAIKIN;
+    desc.loop_weights = CARVEL_LOOP_WEIGHTS_WARREN;
+    /* The two agree at valence 3. */
+    CHECK(first(desc) == loop);
+    desc = {CARVEL_SCHEME_CATMULL_CLARK};
+    const std::vector<double> plain = first(desc);
+    desc.triangle_rule = CARVEL_TRIANGLE_RULE_SMOOTH;
+    CHECK(first(desc) != plain);
+    desc.loop_weights = CARVEL_LOOP_WEIGHTS_WARREN;
+    CHECK(THROWN(carvel::Scheme::create(desc)) == CARVEL_STATUS_PARAMETER_OUT_OF_RANGE);
+    const carvel::Fraction pass[] = {{0, 1}};
+    desc = {CARVEL_SCHEME_PRIMAL};
+    desc.passes = pass;
+    CHECK(carvel::Scheme::create(desc).passes().size() == 1);
+}
+
+static void varying_values_stay_linear()
+{
+    const carvel::Mesh mesh = carvel::Mesh::create(pyramid.faces());
+    const carvel::Scheme scheme = carvel::Scheme::create({CARVEL_SCHEME_CATMULL_CLARK});
+    const carvel::Scheme linear = carvel::Scheme::create({CARVEL_SCHEME_BILINEAR});
+    const std::vector<double> expected = carvel::refine(mesh, linear, 2, pyramid.points).positions;
+    const carvel::Hierarchy hierarchy = carvel::Hierarchy::create(mesh, scheme, 2);
+    CHECK(hierarchy.interpolate(2, CARVEL_INTERPOLATION_VARYING, pyramid.points) == expected);
+    std::vector<double> out(expected.size());
+    hierarchy.interpolate_into(2, CARVEL_INTERPOLATION_VARYING, pyramid.points, out);
+    CHECK(out == expected);
+    hierarchy.refine_into(2, pyramid.points, out);
+    CHECK(out != expected && out == hierarchy.refine(2, pyramid.points));
+    const carvel::ConstValues<double> attributes[] = {carvel::values(pyramid.points),
+                                                      carvel::values(pyramid.points)};
+    const std::int32_t kinds[] = {CARVEL_INTERPOLATION_VERTEX, CARVEL_INTERPOLATION_VARYING};
+    carvel::RefineInput<double> input{mesh, scheme, 2, attributes[0], attributes, kinds};
+    const carvel::Refined<double> refined = carvel::refine(input);
+    CHECK(refined.attributes[0] == refined.positions && refined.attributes[1] == expected);
+    input.interpolations = {kinds, 1};
+    CHECK(THROWN(carvel::refine(input)) == CARVEL_STATUS_LENGTH_MISMATCH);
+    const carvel::Scheme dual = carvel::Scheme::create();
+    const auto none = carvel::Hierarchy::create(mesh, dual, 1)
+                          .try_interpolate(1, CARVEL_INTERPOLATION_VARYING, pyramid.points);
+    CHECK(!none && none.error().status() == CARVEL_STATUS_UNSUPPORTED);
+}
+
+/* Two quads with a seam between them: 8 values on 6 vertices. */
+static void channels_keep_their_seams()
+{
+    const std::uint32_t strip[] = {0, 1, 4, 3, 1, 2, 5, 4};
+    const std::vector<float> points = {0, 0, 0, 1, 0, 0, 2, 0, 0, 0, 1, 0, 1, 1, 0, 2, 1, 0};
+    const std::uint32_t own[] = {0, 1, 2, 3, 4, 5, 6, 7};
+    const std::vector<std::array<float, 2>> uv = {{0, 0}, {1, 0}, {1, 1}, {0, 1},
+                                                  {5, 5}, {6, 5}, {6, 6}, {5, 6}};
+    const carvel::Mesh mesh = carvel::Mesh::create(carvel::Faces::of_size(6, 4, strip));
+    const carvel::Scheme scheme = carvel::Scheme::create({CARVEL_SCHEME_CATMULL_CLARK});
+    const carvel::Channel cut = carvel::Channel::create(mesh, own, uv.size());
+    const carvel::Channel whole = carvel::Channel::create(mesh, strip, 6, CARVEL_FACE_VARYING_ALL);
+    CHECK(cut.seam_edges() == 1 && whole.seam_edges() == 0 && carvel::Channel().seam_edges() == 0);
+    CHECK(carvel::predict_channel(cut, scheme, 1) == 18);
+    const carvel::ChannelInput<float> channels[] = {{cut, carvel::values(uv)},
+                                                    {whole, carvel::values(points)}};
+    carvel::RefineInput<float> input{mesh, scheme, 1, carvel::values(points)};
+    input.channels = channels;
+    const carvel::Refined<float> refined = carvel::refine(input);
+    CHECK(refined.channels.size() == 2 && refined.channels[0].indices.size() == 32);
+    CHECK(refined.channels[0].values.size() == 36);
+    for (std::size_t corner = 0; corner < 8; ++corner) {
+        /* Single faces keep their values; the second channel is linear. */
+        const std::size_t at = refined.channels[0].indices[4 * corner];
+        CHECK(refined.channels[0].values[2 * at] == uv[corner][0]);
+        CHECK(refined.channels[0].values[2 * at + 1] == uv[corner][1]);
+        const std::size_t linear = refined.channels[1].indices[4 * corner];
+        CHECK(refined.channels[1].values[3 * linear] == points[3 * strip[corner]]);
+    }
+    CHECK(THROWN(carvel::Channel::create(mesh, own, 7)) == CARVEL_STATUS_INDEX_OUT_OF_RANGE);
+    const carvel::Scheme dual = carvel::Scheme::create();
+    const carvel::RefineInput<float> other{mesh, dual, 1, carvel::values(points), {}, {}, channels};
+    CHECK(THROWN(carvel::refine(other)) == CARVEL_STATUS_UNSUPPORTED);
+    CHECK(THROWN(carvel::predict_channel(cut, dual, 1)) == CARVEL_STATUS_UNSUPPORTED);
+    std::vector<std::uint32_t> few(31);
+    std::vector<float> room(36);
+    std::vector<float> positions(3 * refined.vertex_count());
+    const carvel::ChannelOutput<float> narrow[] = {{few, carvel::values(room, 2)}};
+    carvel::RefineOutput<float> output;
+    output.positions = carvel::values(positions);
+    output.channels = narrow;
+    input.channels = {channels, 1};
+    CHECK(THROWN(carvel::Refiner::create().refine_into(input, output)) ==
+          CARVEL_STATUS_BUFFER_TOO_SMALL);
+}
+
 static void predictions_hold()
 {
     const carvel::Mesh mesh = carvel::Mesh::create(pyramid.faces());
@@ -153,6 +301,10 @@ int main()
     meshes_tell_what_they_are();
     meshes_give_their_arrays();
     options_reach_the_mesh();
+    tags_reach_the_mesh();
+    primal_options_reach_the_scheme();
+    varying_values_stay_linear();
+    channels_keep_their_seams();
     predictions_hold();
     lineage_and_rows_are_told();
     std::puts("queries: ok");

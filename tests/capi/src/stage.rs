@@ -123,7 +123,7 @@ fn make_in(copy: &Path, argument: &str) -> Command {
 /// Copies what is built and installed. What has not changed keeps its date, so that a
 /// second run builds nothing.
 fn copy_sources(copy: &Path) {
-    for folder in ["benches", "docs", "include", "packaging", "src", "tests"] {
+    for folder in ["benches", "cpp", "docs", "include", "packaging", "src", "tests"] {
         copy_folder(&root().join(folder), &copy.join(folder));
     }
     let files = ["Makefile", "Cargo.toml", "Cargo.lock", "build.rs", "README.md"];

@@ -46,6 +46,8 @@ fn write_case(out: &mut String, header: &Header, case: &Case) {
     let statuses = [
         topology(plain),
         topology(case.expected("cut")),
+        topology(case.expected("sharpen")),
+        topology(case.expected("tags")),
         values(plain),
         values(single),
         status(header, &may_be),
@@ -57,6 +59,20 @@ fn write_case(out: &mut String, header: &Header, case: &Case) {
     for point in &case.positions {
         writeln!(out, "{}", joined(point)).expect("a string");
     }
+    write_tags(out, case);
+}
+
+/// Creases, sharp vertices and holes; sharpness as its bits.
+fn write_tags(out: &mut String, case: &Case) {
+    let counts = [case.creases.len(), case.sharp_vertices.len(), case.holes.len()];
+    writeln!(out, "{}", joined(&counts)).expect("a string");
+    for ([a, b], sharpness) in &case.creases {
+        writeln!(out, "{a} {b} {}", sharpness.to_bits()).expect("a string");
+    }
+    for (vertex, sharpness) in &case.sharp_vertices {
+        writeln!(out, "{vertex} {}", sharpness.to_bits()).expect("a string");
+    }
+    writeln!(out, "{}", joined(&case.holes)).expect("a string");
 }
 
 fn joined<T: ToString>(values: &[T]) -> String {
@@ -64,13 +80,15 @@ fn joined<T: ToString>(values: &[T]) -> String {
     words.join(" ")
 }
 
-/// All cases, each mesh once: tags do not reach C yet.
+/// All cases, each once: some differ in what C does not read.
 fn cases() -> Vec<Case> {
     let mut seen = HashSet::new();
     let mut cases = case::all(&root().join("tests/cases"));
     cases.retain(|case| {
         let bits: Vec<u64> = case.positions.as_flattened().iter().map(|x| x.to_bits()).collect();
-        seen.insert((bits, case.sizes.clone(), case.indices.clone()))
+        let mut tags = String::new();
+        write_tags(&mut tags, case);
+        seen.insert((bits, case.sizes.clone(), case.indices.clone(), tags))
     });
     cases
 }

@@ -54,6 +54,16 @@ fn hierarchies_are_clean() {
 }
 
 #[test]
+fn primal_schemes_and_tags_are_clean() {
+    memcheck("primal", &[]);
+}
+
+#[test]
+fn channels_are_clean() {
+    memcheck("channel", &[]);
+}
+
+#[test]
 fn contexts_are_clean() {
     memcheck("context", &["4"]);
 }
@@ -91,4 +101,9 @@ fn values_pass_the_sanitizers() {
 #[test]
 fn hostile_meshes_pass_the_sanitizers() {
     sanitize("hostile", &[]);
+}
+
+#[test]
+fn channels_pass_the_sanitizers() {
+    sanitize("channel", &[]);
 }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 use carvel_capi_tests::compiler::{Compiler, Linkage};
-use carvel_capi_tests::header;
+use carvel_capi_tests::header::{self, Header};
 use carvel_capi_tests::library::library;
 use carvel_capi_tests::program::{self, Limit};
 use carvel_capi_tests::{root, sources, work_directory};
@@ -60,6 +60,16 @@ fn values_of_any_layout_are_refined() {
 #[test]
 fn hierarchies_keep_all_levels() {
     run_with_both("hierarchy", &[]);
+}
+
+#[test]
+fn primal_schemes_and_tags_do_as_opensubdiv_says() {
+    run_with_both("primal", &[]);
+}
+
+#[test]
+fn channels_keep_their_seams() {
+    run_with_both("channel", &[]);
 }
 
 #[test]
@@ -177,13 +187,18 @@ fn write_mesh(out: &mut String, positions: &Value, faces: &Value) {
 }
 
 /// A case as golden.c reads it.
-fn write_case(out: &mut String, case: &Value) {
+fn write_case(out: &mut String, header: &Header, case: &Value) {
     let name = case["name"].as_str().expect("a name");
+    let family = match &case["split"] {
+        split if split == "dual" => header.constant("CARVEL_SCHEME_AVERAGING"),
+        split if split == "primal" => header.constant("CARVEL_SCHEME_PRIMAL"),
+        other => panic!("{name}: the split {other}"),
+    };
     let rule = number_of(&case["corner_rule"], &["cosine", "average"]);
     let boundary = number_of(&case["boundary"], &["edge-corner", "edge", "none"]);
     let passes = items(&case["passes"]);
     let levels = &case["levels"];
-    writeln!(out, "{name} {levels} {rule} {boundary} {}", passes.len()).expect("a string");
+    writeln!(out, "{name} {levels} {family} {rule} {boundary} {}", passes.len()).expect("a string");
     for pass in passes {
         let (p, q) = split_fraction(pass.as_str().expect("a fraction"));
         writeln!(out, "{p} {q}").expect("a string");
@@ -199,21 +214,18 @@ fn split_fraction(text: &str) -> (&str, &str) {
 #[test]
 fn golden_cases_are_reproduced() {
     let cases: Vec<Value> = golden_files().iter().map(|p| load(p)).collect();
-    let (dual, skipped): (Vec<_>, Vec<_>) = cases.iter().partition(|c| c["split"] == "dual");
-    let names = |cases: &[&Value]| -> Vec<String> {
-        cases.iter().map(|c| c["name"].as_str().expect("a name").to_owned()).collect()
-    };
-    // There is no primal split yet: this one case, and no other, is left out.
-    assert_eq!(names(&skipped), ["prism_primal_cubic_2"]);
-    assert!(dual.len() >= 17, "golden cases are missing: {} found", dual.len());
+    let header = Header::read(&header::text());
+    let names: Vec<&str> = cases.iter().map(|c| c["name"].as_str().expect("a name")).collect();
+    assert!(names.contains(&"prism_primal_cubic_2"), "no primal case in {names:?}");
+    assert!(names.len() >= 18, "golden cases are missing: {} found", names.len());
     let mut list = String::new();
-    for case in &dual {
-        write_case(&mut list, case);
+    for case in &cases {
+        write_case(&mut list, &header, case);
     }
     let path = work_directory("golden").join("cases.txt");
     std::fs::write(&path, list).expect("a place for the cases");
     for output in run_with_both("golden", &[&path]) {
         let ran: Vec<&str> = output.stdout.lines().collect();
-        assert_eq!(ran, names(&dual));
+        assert_eq!(ran, names);
     }
 }

@@ -1,14 +1,19 @@
 //! What can be asked for on the command line.
 
+mod crease;
+mod names;
+mod owners;
 mod scheme;
 mod view;
 
+pub use crease::CreaseArgs;
 pub use scheme::{Chosen, SchemeArgs};
 pub use view::ViewArgs;
 
 use crate::{exit, memory};
-use carvel::io::{Encoding, Format, Precision};
+use carvel::io::{Encoding, Format, Precision, SchemeTags};
 use carvel::mesh::NonManifold;
+use carvel::scheme::SplitKind;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 use std::path::PathBuf;
 
@@ -35,6 +40,7 @@ pub enum Command {
 /// Options of `carvel subdivide`.
 #[derive(Debug, Args)]
 #[command(after_help = exit::HELP)]
+#[expect(clippy::struct_excessive_bools, reason = "one for each switch on the command line")]
 pub struct SubdivideArgs {
     /// Mesh files; - is the standard input.
     #[arg(required = true, value_name = "IN")]
@@ -51,7 +57,11 @@ pub struct SubdivideArgs {
     /// The scheme and its parameters.
     #[command(flatten)]
     pub scheme: SchemeArgs,
-    /// The input is the result of an earlier run with a boundary: continue it.
+    /// Creases besides those of the file.
+    #[command(flatten)]
+    pub creases: CreaseArgs,
+    /// For dual schemes: the input is the result of an earlier run with a boundary;
+    /// continue it.
     #[arg(long, help_heading = "Input")]
     pub anchored: bool,
     /// What to do with edges of more than two faces, faces that are turned
@@ -61,6 +71,10 @@ pub struct SubdivideArgs {
     /// Where files come from and how they are written.
     #[command(flatten)]
     pub files: FileArgs,
+    /// Write the faces that are holes, tagged as such, rather than leaving them out with
+    /// the vertices that only they use; for catmull-clark, loop and bilinear.
+    #[arg(long, help_heading = "Output")]
+    pub keep_holes: bool,
     /// The number type that is computed in and written.
     #[arg(long, value_enum, default_value_t, value_name = "TYPE", help_heading = "Output")]
     pub precision: NumberType,
@@ -83,6 +97,26 @@ pub struct SubdivideArgs {
     /// Print neither notes nor progress nor summaries, only errors.
     #[arg(short, long, help_heading = "Run")]
     pub quiet: bool,
+}
+
+impl SubdivideArgs {
+    /// Refuses options that do not go with the scheme.
+    ///
+    /// # Errors
+    /// A usage error.
+    pub fn check(&self) -> Result<(), exit::Failure> {
+        let chosen = self.scheme.choose(SchemeTags::default())?;
+        let sharpen = self.non_manifold == Policy::Sharpen;
+        self.scheme.require_features("--non-manifold sharpen", sharpen)?;
+        self.scheme.require_features("--keep-holes", self.keep_holes)?;
+        self.scheme.require_features("--crease-angle", self.creases.angle().is_some())?;
+        self.creases.check()?;
+        if self.anchored && chosen.scheme.split() != SplitKind::Corner {
+            let message = format!("--anchored belongs to dual schemes, not to {}", chosen.name);
+            return Err(exit::Failure::usage(message));
+        }
+        Ok(())
+    }
 }
 
 /// Options about file formats.
@@ -150,6 +184,8 @@ pub enum Policy {
     Error,
     /// Cut it open there
     Cut,
+    /// Keep it, infinitely sharp there; for catmull-clark, loop and bilinear
+    Sharpen,
 }
 
 impl From<Policy> for NonManifold {
@@ -157,6 +193,7 @@ impl From<Policy> for NonManifold {
         match policy {
             Policy::Error => Self::Error,
             Policy::Cut => Self::Cut,
+            Policy::Sharpen => Self::Sharpen,
         }
     }
 }

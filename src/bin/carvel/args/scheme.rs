@@ -1,8 +1,12 @@
 //! The scheme: a name, the parameters that belong to it, and nothing else.
 
+use super::names::{Beta, Edges, Method, Name, Rule, Split, Triangles, Uv, spelled};
+use super::owners::{AVERAGING, FEATURED, refuse_strangers};
 use crate::exit::{Doing, Failure};
-use carvel::{Boundary, CornerRule, Fraction, Scheme};
-use clap::{Args, ValueEnum};
+use carvel::io::SchemeTags;
+use carvel::scheme::SplitKind;
+use carvel::{FaceVaryingMode, Fraction, Scheme};
+use clap::Args;
 use std::str::FromStr;
 
 /// Options that choose a scheme.
@@ -15,7 +19,7 @@ pub struct SchemeArgs {
     /// For three-point: the parameter w, from 0 to 1/16 [default: 1/32].
     #[arg(long, value_name = "W", allow_hyphen_values = true)]
     w: Option<Fraction>,
-    /// For bspline: the degree, an even number from 2 to 64.
+    /// For bspline: the degree, from 1 to 65; even ones are dual, odd ones primal.
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
     degree: Option<u32>,
     /// For averaging: the split [default: dual].
@@ -24,59 +28,29 @@ pub struct SchemeArgs {
     /// For averaging: the smoothing passes, such as 1/2,0 or "" [default: none].
     #[arg(long, value_name = "T,...", allow_hyphen_values = true)]
     passes: Option<Passes>,
-    /// How corners of faces that are no quads are cut.
-    #[arg(long, value_enum, default_value_t, value_name = "RULE")]
-    corner_rule: Rule,
-    /// What happens along boundaries.
-    #[arg(long, value_enum, default_value_t, value_name = "MODE")]
-    boundary: Edges,
-}
-
-/// The names of schemes.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
-enum Name {
-    /// The three-point family; w = 1/32 is C2, w = 0 Doo-Sabin, w = 1/16 quartic
-    #[default]
-    ThreePoint,
-    /// Doo and Sabin's biquadratic B-splines
-    DooSabin,
-    /// Biquartic B-splines
-    Quartic,
-    /// Tensor-product B-splines of an even --degree
-    Bspline,
-    /// A --split followed by smoothing --passes
-    Averaging,
-}
-
-/// How faces are split.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, ValueEnum)]
-enum Split {
-    /// A vertex for every corner of a face
-    Dual,
-    /// A quad for every corner of a face
-    Primal,
-}
-
-/// Corner operators.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
-enum Rule {
-    /// Doo and Sabin's cosine weights
-    #[default]
-    Cosine,
-    /// Mean of vertex, edge midpoints and centroid
-    Average,
-}
-
-/// Boundary rules.
-#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
-enum Edges {
-    /// Nothing is added: the surface ends inside the boundary
-    None,
-    /// The boundary becomes the curve of its polygon
-    Edge,
-    /// Likewise, and vertices of a single face stay
-    #[default]
-    EdgeCorner,
+    /// How corners of faces that are no quads are cut; for all schemes but catmull-clark,
+    /// loop and bilinear [default: cosine].
+    #[arg(long, value_enum, value_name = "RULE")]
+    corner_rule: Option<Rule>,
+    /// What happens along boundaries; catmull-clark and loop follow what the file says,
+    /// other primal schemes do not ask [default: edge-corner].
+    #[arg(long, value_enum, value_name = "MODE")]
+    boundary: Option<Edges>,
+    /// How the sharpness of creases goes down; for catmull-clark, loop and bilinear
+    /// [default: what the file says, or uniform].
+    #[arg(long, value_enum, value_name = "METHOD")]
+    creasing: Option<Method>,
+    /// For catmull-clark: the weights beside triangles of the control mesh
+    /// [default: what the file says, or catmull-clark].
+    #[arg(long, value_enum, value_name = "RULE")]
+    triangle_rule: Option<Triangles>,
+    /// For loop: the weights at vertices of other than six faces [default: loop].
+    #[arg(long, value_enum, value_name = "WEIGHTS")]
+    loop_weights: Option<Beta>,
+    /// Where texture coordinates are refined linearly, along seams and boundaries; for
+    /// catmull-clark, loop and bilinear [default: what the file says, or corners-plus1].
+    #[arg(long, value_enum, value_name = "MODE")]
+    uv: Option<Uv>,
 }
 
 /// A list of passes in one argument.
@@ -98,56 +72,108 @@ impl FromStr for Passes {
 #[derive(Debug, Clone)]
 pub struct Chosen {
     /// The name on the command line.
-    pub name: &'static str,
+    pub name: String,
     /// The scheme.
     pub scheme: Scheme,
-    /// The corner rule on the command line.
-    pub rule: &'static str,
-    /// The boundary rule on the command line.
-    pub boundary: &'static str,
+    /// Where texture coordinates are refined linearly.
+    pub uv: FaceVaryingMode,
+    /// The options that the scheme asks for, as on the command line.
+    pub options: Vec<(&'static str, String)>,
+    /// What the file asks of the scheme, and was followed.
+    pub followed: SchemeTags,
+}
+
+impl Chosen {
+    /// True if creases, sharp vertices, holes and seams mean something.
+    pub fn has_features(&self) -> bool {
+        self.scheme.split() != SplitKind::Corner && self.scheme.passes().is_empty()
+    }
+
+    /// The split's name on the command line.
+    pub fn split(&self) -> String {
+        let dual = self.scheme.split() == SplitKind::Corner;
+        spelled(if dual { &Split::Dual } else { &Split::Primal })
+    }
 }
 
 impl SchemeArgs {
-    /// The scheme asked for.
+    /// The scheme asked for; what a file says counts where no option says otherwise, and
+    /// only with schemes that have creases.
     ///
     /// # Errors
     /// A usage error for an option of another scheme, a missing one, or a value
     /// out of range.
-    pub fn choose(&self) -> Result<Chosen, Failure> {
+    pub fn choose(&self, file: SchemeTags) -> Result<Chosen, Failure> {
         self.refuse_strangers()?;
-        let scheme = self.preset()?.with_rule(self.rule()).with_boundary(self.boundary());
+        let preset = self.preset()?;
+        let featured = FEATURED.contains(&self.scheme);
+        let tags = if featured { file } else { SchemeTags::default() };
+        let rule = self.corner_rule.unwrap_or_default();
+        let boundary = self.boundary.or(tags.boundary.map(Into::into)).unwrap_or_default();
+        let creasing = self.creasing.or(tags.creasing.map(Into::into)).unwrap_or_default();
+        let triangles = self.triangle_rule.or(tags.triangles.map(Into::into)).unwrap_or_default();
+        let beta = self.loop_weights.unwrap_or_default();
+        let uv = self.uv.or(tags.face_varying.map(Into::into)).unwrap_or_default();
+        let scheme = preset
+            .with_rule(rule.into())
+            .with_boundary(boundary.into())
+            .with_creasing(creasing.into())
+            .with_triangle_rule(triangles.into())
+            .with_loop_weights(beta.into());
+        let options = [
+            ("corner_rule", spelled(&rule), AVERAGING.contains(&self.scheme)),
+            ("boundary", spelled(&boundary), true),
+            ("creasing", spelled(&creasing), featured),
+            ("triangle_rule", spelled(&triangles), self.scheme == Name::CatmullClark),
+            ("loop_weights", spelled(&beta), self.scheme == Name::Loop),
+            ("uv", spelled(&uv), featured),
+        ];
+        let asked = options.into_iter().filter(|(.., asked)| *asked);
         Ok(Chosen {
-            name: self.scheme.name(),
+            name: spelled(&self.scheme),
             scheme,
-            rule: match self.corner_rule {
-                Rule::Cosine => "cosine",
-                Rule::Average => "average",
-            },
-            boundary: match self.boundary {
-                Edges::None => "none",
-                Edges::Edge => "edge",
-                Edges::EdgeCorner => "edge-corner",
-            },
+            uv: uv.into(),
+            options: asked.map(|(option, word, _)| (option, word)).collect(),
+            followed: self.followed(tags),
         })
+    }
+
+    /// The tags that no option overrules.
+    fn followed(&self, tags: SchemeTags) -> SchemeTags {
+        SchemeTags {
+            boundary: tags.boundary.filter(|_| self.boundary.is_none()),
+            creasing: tags.creasing.filter(|_| self.creasing.is_none()),
+            triangles: tags.triangles.filter(|_| self.triangle_rule.is_none()),
+            face_varying: tags.face_varying.filter(|_| self.uv.is_none()),
+        }
     }
 
     /// Refuses options that belong to another scheme.
     fn refuse_strangers(&self) -> Result<(), Failure> {
-        let options = [
-            ("--w", self.w.is_some(), Name::ThreePoint),
-            ("--degree", self.degree.is_some(), Name::Bspline),
-            ("--split", self.split.is_some(), Name::Averaging),
-            ("--passes", self.passes.is_some(), Name::Averaging),
+        let options: [(_, _, &[Name]); 9] = [
+            ("--w", self.w.is_some(), &[Name::ThreePoint]),
+            ("--degree", self.degree.is_some(), &[Name::Bspline]),
+            ("--split", self.split.is_some(), &[Name::Averaging]),
+            ("--passes", self.passes.is_some(), &[Name::Averaging]),
+            ("--corner-rule", self.corner_rule.is_some(), AVERAGING),
+            ("--creasing", self.creasing.is_some(), FEATURED),
+            ("--triangle-rule", self.triangle_rule.is_some(), &[Name::CatmullClark]),
+            ("--loop-weights", self.loop_weights.is_some(), &[Name::Loop]),
+            ("--uv", self.uv.is_some(), FEATURED),
         ];
-        let stranger = options.iter().find(|(_, given, of)| *given && *of != self.scheme);
-        stranger.map_or(Ok(()), |(option, _, of)| {
-            let (of, scheme) = (of.name(), self.scheme.name());
-            let message = format!("{option} belongs to --scheme {of}, not to {scheme}");
-            Err(Failure::usage(message))
-        })
+        refuse_strangers(self.scheme, &options)
+    }
+
+    /// Refuses an option outside of this group unless the scheme has creases and holes.
+    ///
+    /// # Errors
+    /// A usage error.
+    pub fn require_features(&self, option: &str, given: bool) -> Result<(), Failure> {
+        refuse_strangers(self.scheme, &[(option, given, FEATURED)])
     }
 
     fn preset(&self) -> Result<Scheme, Failure> {
+        let passes = self.passes.as_ref().map_or(&[][..], |passes| &passes.0);
         let scheme = match self.scheme {
             Name::ThreePoint => match self.w {
                 Some(w) => Scheme::three_point(w),
@@ -155,49 +181,21 @@ impl SchemeArgs {
             },
             Name::DooSabin => Ok(Scheme::doo_sabin()),
             Name::Quartic => Ok(Scheme::quartic()),
+            Name::CatmullClark => Ok(Scheme::catmull_clark()),
+            Name::Loop => Ok(Scheme::loop_triangles()),
+            Name::Bilinear => Ok(Scheme::bilinear()),
             Name::Bspline => Scheme::b_spline(self.degree()?),
-            Name::Averaging => Scheme::dual(self.dual_passes()?),
+            Name::Averaging => match self.split.unwrap_or_default() {
+                Split::Dual => Scheme::dual(passes),
+                Split::Primal => Scheme::primal(passes),
+            },
         };
         scheme.map_err(|e| Failure::from_error(&e, Doing::Asking))
     }
 
     fn degree(&self) -> Result<u32, Failure> {
-        let message = "--scheme bspline needs --degree, an even number from 2 to 64";
+        let message = "--scheme bspline needs --degree, a number from 1 to 65";
         self.degree.ok_or_else(|| Failure::usage(message))
-    }
-
-    fn dual_passes(&self) -> Result<&[Fraction], Failure> {
-        if self.split == Some(Split::Primal) {
-            return Err(Failure::usage("--split primal is not available yet; dual is"));
-        }
-        Ok(self.passes.as_ref().map_or(&[], |passes| &passes.0))
-    }
-
-    fn rule(&self) -> CornerRule {
-        match self.corner_rule {
-            Rule::Cosine => CornerRule::Cosine,
-            Rule::Average => CornerRule::Average,
-        }
-    }
-
-    fn boundary(&self) -> Boundary {
-        match self.boundary {
-            Edges::None => Boundary::None,
-            Edges::Edge => Boundary::Edge,
-            Edges::EdgeCorner => Boundary::EdgeAndCorner,
-        }
-    }
-}
-
-impl Name {
-    fn name(self) -> &'static str {
-        match self {
-            Self::ThreePoint => "three-point",
-            Self::DooSabin => "doo-sabin",
-            Self::Quartic => "quartic",
-            Self::Bspline => "bspline",
-            Self::Averaging => "averaging",
-        }
     }
 }
 
