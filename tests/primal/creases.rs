@@ -180,12 +180,14 @@ fn each_step_takes_one_off() {
     assert_eq!(rule(grid().sharp(12, 10.0)), (ratio(1, 1), false));
 }
 
-/// Tags of level 1: creases by their ends, sharp vertices.
-fn left(control: &Control, scheme: &Scheme) -> (Vec<([u32; 2], f32)>, Vec<(u32, f32)>) {
+/// Sharp halves, by the end and the edge that they are of, and sharp vertices.
+type Tags = (Vec<([u32; 2], f32)>, Vec<(u32, f32)>);
+
+/// Tags of level 1 along the edges from 11 and 13 to 12.
+fn left(control: &Control, scheme: &Scheme) -> Tags {
     let hierarchy = control.hierarchy(scheme, 1);
     let (mesh, rows) = (hierarchy.mesh(1), Rows::of(&hierarchy, 1));
     mesh.validate().expect("a sound mesh");
-    // The far half of an edge is told by its end, 11 to 13; the near one by 12.
     let middles = [[11, 12], [12, 13]].map(|edge| rows.child(&edge));
     let creases = mesh.creases().map(|crease| {
         let mut ends = crease.vertices;

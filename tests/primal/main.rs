@@ -3,6 +3,8 @@
 //!
 //! A target of its own, so that a mutant of `scheme` or `refine` needs only this compiled.
 
+#![allow(clippy::float_cmp, reason = "what is exact is compared exactly")]
+
 mod channels;
 mod control;
 mod creases;

@@ -9,8 +9,8 @@ use crate::support::number::ratio;
 
 // ------------------------------------------------------------------ tensor products
 
-const HEIGHT: u32 = 7;
-const WIDTH: u32 = 9;
+const HEIGHT: u32 = 4;
+const WIDTH: u32 = 5;
 
 /// The binomial mask of a B-spline, [1, 2, 1]/2 times (1, 2, 1)/4 for each pass.
 fn b_spline(passes: u32) -> Vec<BigRational> {
@@ -67,7 +67,7 @@ fn the_cubic_mask_is_the_known_one() {
 fn regular_quads_are_tensor_products_of_b_splines() {
     check_tensor_product(&Scheme::bilinear(), &b_spline(0));
     check_tensor_product(&Scheme::catmull_clark(), &b_spline(1));
-    for degree in [3, 5, 7] {
+    for degree in [3, 5] {
         let scheme = Scheme::b_spline(degree).unwrap();
         check_tensor_product(&scheme, &b_spline((degree - 1) / 2));
     }

@@ -60,7 +60,7 @@ fn refused(control: &Control, element: Element, words: &str) {
     for policy in [NonManifold::Error, NonManifold::Cut, NonManifold::Sharpen] {
         let error = match control.try_mesh(policy).unwrap_err() {
             Defects::Call(error) => error,
-            other => panic!("{other:?}"),
+            soup @ Defects::Soup(_) => panic!("{soup:?}"),
         };
         assert_eq!(error.kind(), ErrorKind::InvalidTag);
         assert_eq!(error.elements(), [element]);
