@@ -98,6 +98,23 @@ fn what_ends_within_the_step_is_mixed() {
     assert_eq!(at_12(&bend), blend((1, 4), stays(), crease(7, 11)));
 }
 
+/// A dart that ends within the step is no mixture of the smooth rule with itself, which
+/// would be rounded in another way.
+#[test]
+fn darts_have_the_row_of_a_smooth_vertex() {
+    let row = |control: &Control| {
+        let mut found = Vec::new();
+        let each = |v: u32, row: &[(u32, f64)]| {
+            if v == 12 {
+                found = row.to_vec();
+            }
+        };
+        control.hierarchy(&catmull_clark(), 1).each_row_of(1, 0, each).expect("level 1");
+        found
+    };
+    assert_eq!(row(&along(0.0, 0.3)), row(&grid()));
+}
+
 #[test]
 fn sharp_vertices_stay_as_long_as_they_are_sharp() {
     assert_eq!(at_12(&grid().sharp(12, 10.0)), stays());
