@@ -2,7 +2,7 @@
 //! and by two.
 
 use carvel::refine::{FaceOrigin, VertexOrigin};
-use carvel::{Context, ErrorKind, Hierarchy, Mesh, Prediction, Scheme};
+use carvel::{Boundary, Context, ErrorKind, Hierarchy, Mesh, Prediction, Scheme};
 
 use crate::control::Control;
 
@@ -104,6 +104,32 @@ fn levels_are_as_large_as_predicted() {
     }
 }
 
+/// The counts of corner splits stand beside those of primal ones.
+#[test]
+fn corner_splits_are_as_large_as_predicted() {
+    let valence_two = Control::new(&[[0, 1, 2, 3], [3, 2, 1, 0]]);
+    let mut controls: Vec<Control> = controls().into_iter().map(|(control, _)| control).collect();
+    controls.retain(|control| control.mesh().is_manifold() && control.creases.is_empty());
+    controls.extend([valence_two, Control::bipyramid(3), Control::grid(1, 1)]);
+    for control in controls {
+        for boundary in [Boundary::None, Boundary::Edge, Boundary::EdgeAndCorner] {
+            let hierarchy = control.hierarchy(&Scheme::doo_sabin().with_boundary(boundary), 3);
+            let plan = Prediction::new(hierarchy.mesh(0), hierarchy.scheme(), 3).unwrap();
+            for level in 0..=3 {
+                let (mesh, counts) = (hierarchy.mesh(level), plan.counts(level));
+                let irregular = mesh.face_sizes().take(mesh.irregular_faces()).sum::<u32>();
+                let found = [mesh.vertices(), mesh.faces(), mesh.corners(), mesh.edges()];
+                let expected = [counts.vertices, counts.faces, counts.corners, counts.edges];
+                let what = format!("{control:?}, {boundary:?}, level {level}");
+                assert_eq!(found.map(|n| n as u64), expected, "{what}");
+                assert_eq!(mesh.boundary_edges() as u64, counts.boundary_edges, "{what}");
+                assert_eq!(mesh.irregular_faces() as u64, counts.irregular_faces, "{what}");
+                assert_eq!(u64::from(irregular), counts.irregular_corners, "{what}");
+            }
+        }
+    }
+}
+
 /// 24·4^29 corners fit 64 bits, four times as many do not.
 #[test]
 fn counts_end_where_64_bits_do() {
@@ -117,6 +143,15 @@ fn counts_end_where_64_bits_do() {
     let triangles = Control::bipyramid(4).mesh();
     Prediction::new(&triangles, &Scheme::loop_triangles(), 29).unwrap();
     assert!(Prediction::new(&triangles, &Scheme::loop_triangles(), 30).is_err());
+}
+
+/// Corners are what there is most of: 24·4^13 have numbers, four times as many have not.
+#[test]
+fn corners_alone_may_be_too_many() {
+    let plan = Prediction::new(&Control::grid(2, 3).mesh(), &Scheme::catmull_clark(), 14).unwrap();
+    plan.counts(13).check_index_type().unwrap();
+    assert!(plan.counts(14).vertices < u64::from(u32::MAX));
+    assert_eq!(plan.counts(14).check_index_type().unwrap_err().kind(), ErrorKind::TooLarge);
 }
 
 #[test]
