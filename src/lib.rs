@@ -12,6 +12,7 @@ pub mod refine;
 pub mod scheme;
 
 pub use base::{Context, Crease, Element, Error, ErrorKind, Fraction, Result, SharpVertex};
-pub use hierarchy::{Attribute, Hierarchy, Output, Prediction, Refined, Refiner, Task};
+pub use hierarchy::{Attribute, ChannelOutput, FaceVarying, Hierarchy, Interpolation, Output};
+pub use hierarchy::{Prediction, Refined, RefinedChannel, Refiner, Task};
 pub use mesh::{Channel, FaceVaryingMode, Mesh};
-pub use scheme::{Boundary, CornerRule, Scheme};
+pub use scheme::{Boundary, CornerRule, Creasing, LoopWeights, Scheme, SplitKind, TriangleRule};

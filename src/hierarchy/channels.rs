@@ -67,6 +67,12 @@ impl<T: Scalar> FaceVarying<'_, T> {
         Ok(plan)
     }
 
+    /// Bytes of the records that a refinement copies: one for each pair of vertex and value.
+    pub(super) fn copied_bytes(&self) -> u64 {
+        let record = (self.width as u64).saturating_mul(T::BYTES);
+        (self.channel.source.len() as u64).saturating_mul(record)
+    }
+
     /// Checks that all values are finite; returns the largest magnitude.
     pub(super) fn check_values(&self, context: &Context) -> Result<f64> {
         check(context, "face-varying values", self.values, self.width, self.channel.values)

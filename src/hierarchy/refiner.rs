@@ -265,7 +265,7 @@ impl<T: Scalar> Task<'_, T> {
             let width = data.width as u64;
             let output = if with_output { plan.output_bytes(width, T::BYTES) } else { 0 };
             let bytes = plan.refiner_bytes(width, T::BYTES, false).saturating_add(output);
-            channels = channels.saturating_add(bytes);
+            channels = channels.saturating_add(bytes).saturating_add(data.copied_bytes());
         }
         let widths = self.attributes.iter().map(|a| a.width as u64);
         let width = widths.fold(3, u64::saturating_add);

@@ -48,8 +48,9 @@ pub enum FaceVaryingMode {
 pub struct Channel {
     /// The mesh cut along the seams; a vertex is a pair of a vertex and a value.
     pub(crate) mesh: Mesh,
-    /// The caller's value of each vertex.
+    /// The caller's value of each vertex, and the vertex of the caller's mesh.
     pub(crate) source: Vec<u32>,
+    vertex: Vec<u32>,
     /// The caller's values.
     pub(crate) values: usize,
     pub(crate) mode: FaceVaryingMode,
@@ -93,7 +94,11 @@ impl Channel {
         let several = several_fans(&Context::serial(), &mut cut)?;
         joints::collect_fans(&mut cut, &several)?;
         cut.collect_lists()?;
-        Ok(Self { mesh: cut, source, values, mode })
+        let mut vertex = memory::zeroed(source.len())?;
+        for (&slot, &v) in cut.vert.iter().zip(&mesh.vert) {
+            vertex[slot as usize] = v;
+        }
+        Ok(Self { mesh: cut, source, vertex, values, mode })
     }
 
     /// How smooth the values are along boundaries.
@@ -124,7 +129,8 @@ impl Channel {
     /// # Errors
     /// [`ErrorKind::LengthMismatch`].
     pub(crate) fn check_mesh(&self, mesh: &Mesh) -> Result<()> {
-        if self.mesh.corners() == mesh.corners() && self.mesh.layout == mesh.layout {
+        let same = |(&slot, &v): (&u32, &u32)| self.vertex[slot as usize] == v;
+        if self.mesh.layout == mesh.layout && self.mesh.vert.iter().zip(&mesh.vert).all(same) {
             return Ok(());
         }
         Err(Error::new(ErrorKind::LengthMismatch, "a face-varying channel belongs to another mesh"))

@@ -582,3 +582,37 @@ fn too_many_threads_are_refused() {
     let refused = Context::builder().threads(100_000).build();
     assert_kind(refused, ErrorKind::ParameterOutOfRange);
 }
+
+/// A channel knows its mesh by the vertices of the corners, not by their number.
+#[test]
+fn channels_of_other_meshes_are_refused() {
+    let apart = Mesh::from_polygons(8, &[4, 4], &[0, 1, 2, 3, 4, 5, 6, 7]).expect("two quads");
+    let strip = Mesh::from_polygons(6, &[4, 4], &[0, 1, 4, 3, 1, 2, 5, 4]).expect("a strip");
+    let mode = carvel::FaceVaryingMode::default();
+    let channel = carvel::Channel::new(&apart, &[0; 8], 1, mode).expect("a channel");
+    let (scheme, values) = (Scheme::catmull_clark(), [0.0]);
+    let channels = [carvel::FaceVarying { channel: &channel, values: &values, width: 1 }];
+    let refine = |mesh: &Mesh| {
+        let positions = vec![0.0; 3 * mesh.vertices()];
+        let task = Task { channels: &channels, ..Task::new(mesh, &scheme, 1, &positions) };
+        Refiner::new().refine(&Context::serial(), &task).map(|refined| refined.channels.len())
+    };
+    assert_eq!(refine(&apart).expect("its own mesh"), 1);
+    assert_kind(refine(&strip), ErrorKind::LengthMismatch);
+}
+
+/// Every pair of vertex and value has a record of its own while it is refined.
+#[test]
+fn shared_values_count_once_for_each_vertex() {
+    let mesh = Mesh::from_polygons(4, &[4], &[0, 1, 2, 3]).expect("a quad");
+    let mode = carvel::FaceVaryingMode::default();
+    let channel = carvel::Channel::new(&mesh, &[0; 4], 1, mode).expect("a channel");
+    let (scheme, values, positions) = (Scheme::bilinear(), vec![0.0; 4096], [0.0; 12]);
+    let channels = [carvel::FaceVarying { channel: &channel, values: &values, width: 4096 }];
+    let task = Task { channels: &channels, ..Task::new(&mesh, &scheme, 1, &positions) };
+    let ceiling = |bytes| Context::builder().memory_ceiling(bytes).build().expect("a context");
+    // Nine values and the copies of four, each of 4096 doubles.
+    let refined = Refiner::new().refine(&ceiling(13 * 4096 * 8), &task);
+    assert_kind(refined, ErrorKind::MemoryCeiling);
+    assert!(Refiner::new().refine(&ceiling(40 * 4096 * 8), &task).is_ok());
+}
