@@ -13,7 +13,7 @@ export PREFIX DESTDIR LIBDIR INCLUDEDIR STRIP_DEBUG
 
 COMPARED = $(if $(MESH),--mesh '$(MESH)') $(if $(LEVEL),--level '$(LEVEL)') $(COMPARE_FLAGS)
 
-.PHONY: demo test lint deep fuzz bench compare abi-record lib install uninstall tools test-tools clean
+.PHONY: demo test lint deep mutants fuzz bench compare abi-record lib install uninstall tools test-tools clean
 
 # Refines the cow, a creased cube and the founding paper's torus into out/.
 demo: tools
@@ -42,6 +42,14 @@ deep: tools
 	    -o out/deep/large.obj --levels 7 --json
 	target/release/carvel subdivide out/deep/large.obj -o out/deep/larger.ply --levels 1 --json
 	$(MAKE) --no-print-directory fuzz
+
+# Breaks the primal schemes and splits in every way that cargo-mutants knows: hours of
+# work. MUTANTS='--shard 0/10' or '--file src/scheme/smooth.rs --no-config' for a part.
+mutants:
+	@cargo mutants --version >/dev/null 2>&1 || \
+	    { echo "cargo-mutants is missing: cargo install cargo-mutants --locked"; exit 1; }
+	mkdir -p out
+	CARGO_PROFILE_DEV_DEBUG=0 $(CARGO) mutants --output out $(MUTANTS)
 
 # FUZZ_SECONDS on each reader and on mesh construction.
 fuzz:

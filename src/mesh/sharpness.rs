@@ -146,6 +146,8 @@ fn unique(mut tags: Vec<(u32, f32)>, element: impl Fn(u32) -> Element) -> Result
 /// Copies of vertices that policy `cut` made.
 struct Copies<'a> {
     source: Option<&'a [u32]>,
+    /// The number of vertices that are no copies.
+    vertices: usize,
     /// (vertex, copy), sorted.
     list: Vec<(u32, u32)>,
 }
@@ -155,17 +157,18 @@ impl<'a> Copies<'a> {
         let copies = source.unwrap_or_default().iter().zip(0..).skip(vertices);
         let mut list = memory::collect(copies.map(|(&v, copy)| (v, copy)))?;
         list.sort_unstable();
-        Ok(Self { source, list })
+        Ok(Self { source, vertices, list })
     }
 
     fn origin(&self, vertex: u32) -> u32 {
         self.source.map_or(vertex, |source| source[vertex as usize])
     }
 
-    /// A vertex and its copies; none if there is no such vertex in any list.
+    /// A vertex and its copies; none if the caller has no such vertex.
     fn of(&self, vertex: u32) -> impl Iterator<Item = u32> + '_ {
         let first = self.list.partition_point(|&(v, _)| v < vertex);
         let copies = self.list[first..].iter().take_while(move |&&(v, _)| v == vertex);
-        std::iter::once(vertex).chain(copies.map(|&(_, copy)| copy))
+        let own = ((vertex as usize) < self.vertices).then_some(vertex);
+        own.into_iter().chain(copies.map(|&(_, copy)| copy))
     }
 }

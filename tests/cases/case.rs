@@ -77,9 +77,32 @@ impl Case {
         self.sizes.iter().all(|&size| size == 3)
     }
 
-    /// True if an edge or a vertex is tagged.
+    /// True if a face is a triangle.
+    pub fn has_triangles(&self) -> bool {
+        self.sizes.contains(&3)
+    }
+
+    /// True if an edge, a vertex or a face is tagged.
+    pub fn is_tagged(&self) -> bool {
+        !self.creases.is_empty() || !self.sharp_vertices.is_empty() || !self.holes.is_empty()
+    }
+
+    /// True if an interior edge or a vertex is sharp.
     pub fn is_sharp(&self) -> bool {
-        !self.creases.is_empty() || !self.sharp_vertices.is_empty()
+        self.sharp_vertices.iter().any(|&(_, sharpness)| sharpness > 0.0)
+            || self.creases.iter().any(|&(ends, sharpness)| sharpness > 0.0 && self.sides(ends) > 1)
+    }
+
+    /// The number of times that faces run along an edge.
+    fn sides(&self, [a, b]: [u32; 2]) -> usize {
+        let mut rest = &self.indices[..];
+        let along = |&size: &u32| {
+            let (face, later) = rest.split_at(size as usize);
+            rest = later;
+            let next = face.iter().cycle().skip(1);
+            face.iter().zip(next).filter(|&(&x, &y)| [x, y] == [a, b] || [x, y] == [b, a]).count()
+        };
+        self.sizes.iter().map(along).sum()
     }
 
     fn comment(&mut self, comment: &str) {

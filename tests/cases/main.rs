@@ -6,6 +6,7 @@
 
 mod accepted;
 mod case;
+mod channels;
 #[cfg(feature = "io")]
 mod files;
 mod refined;

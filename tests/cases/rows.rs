@@ -6,7 +6,7 @@ use carvel::{Context, Hierarchy};
 
 use crate::accepted::{meshes, positions};
 use crate::case::{Case, Outcome};
-use crate::schemes::{BOUNDARIES, all};
+use crate::schemes::{Named, all};
 use crate::tolerance::STEEP;
 
 const LEVELS: u32 = 2;
@@ -15,8 +15,9 @@ const LEVELS: u32 = 2;
 fn rows_sum_to_one_and_give_the_positions() {
     for (case, built) in meshes() {
         let positions = positions::<f64>(&case, &built);
-        for named in all().into_iter().filter(|named| !(named.refuses)(&case)) {
-            for boundary in BOUNDARIES {
+        let takes = |named: &Named| !(named.refuses)(&case, &built.mesh) && (named.concerns)(&case);
+        for named in all().into_iter().filter(takes) {
+            for &boundary in Named::boundaries(&built.mesh) {
                 let scheme = named.scheme.clone().with_boundary(boundary);
                 let what = format!("{} under {}, {boundary:?}", case.name, named.name);
                 let mesh = built.mesh.clone();
