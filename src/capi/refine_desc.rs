@@ -206,7 +206,7 @@ pub(super) fn targets<T: Scalar>(lists: &Lists<T>, channels: &[Lent]) -> Vec<Tar
 /// Scratch memory of all channels.
 pub(super) fn channel_bytes<T: Scalar>(channels: &[Lent], values: &[Records<*const T>]) -> u64 {
     let bytes = |(lent, records): (&Lent, &Records<*const T>)| {
-        lent.plan.refiner_bytes(records.width as u64, T::BYTES, false)
+        crate::hierarchy::channel_bytes(lent.channel, &lent.plan, records.width as u64, T::BYTES)
     };
     channels.iter().zip(values).map(bytes).fold(0, u64::saturating_add)
 }

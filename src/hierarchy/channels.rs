@@ -67,10 +67,10 @@ impl<T: Scalar> FaceVarying<'_, T> {
         Ok(plan)
     }
 
-    /// Bytes of the records that a refinement copies: one for each pair of vertex and value.
-    pub(super) fn copied_bytes(&self) -> u64 {
-        let record = (self.width as u64).saturating_mul(T::BYTES);
-        (self.channel.source.len() as u64).saturating_mul(record)
+    /// Scratch memory of a refinement, with the records that it copies: one for each pair
+    /// of vertex and value.
+    pub(super) fn scratch_bytes(&self, plan: &Prediction) -> u64 {
+        channel_bytes(self.channel, plan, self.width as u64, T::BYTES)
     }
 
     /// Checks that all values are finite; returns the largest magnitude.
@@ -85,6 +85,13 @@ impl<T: Scalar> FaceVarying<'_, T> {
             *slot = self.channel.taken(corner);
         }
     }
+}
+
+/// Scratch memory of the refinement of a channel with values of some width.
+pub(crate) fn channel_bytes(channel: &Channel, plan: &Prediction, width: u64, size: u64) -> u64 {
+    let record = width.saturating_mul(size);
+    let copied = (channel.source.len() as u64).saturating_mul(record);
+    plan.refiner_bytes(width, size, false).saturating_add(copied)
 }
 
 impl<T: Scalar> ChannelOutput<'_, T> {

@@ -134,7 +134,13 @@ impl Tracks {
         self.vertices = vertices.len() as u32;
         for (vertex, &v) in (0..).zip(&vertices) {
             let mut around = Vec::new();
-            mesh.each_edge_at(v, |far, _| around.push(mesh.first_of_edge(mesh.prev(far))));
+            mesh.each_edge_at(v, |far, _| {
+                // The last edge of an open fan leaves from no corner here; it is no crease.
+                let corner = mesh.prev(far);
+                if mesh.vert[corner as usize] == v {
+                    around.push(mesh.first_of_edge(corner));
+                }
+            });
             for first in around {
                 let found = sharp.binary_search_by_key(&first, |&(c, _)| c);
                 let end = found.ok().map(|edge| End {

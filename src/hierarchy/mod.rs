@@ -17,6 +17,8 @@ mod refiner;
 mod step;
 mod values;
 
+#[cfg(feature = "capi")]
+pub(crate) use channels::channel_bytes;
 pub use channels::{ChannelOutput, FaceVarying, RefinedChannel};
 pub use crease_angle::creases_by_angle;
 pub use creases_left::creases_left;

@@ -15,6 +15,8 @@ pub struct Prediction {
     levels: Vec<Counts>,
     passes: usize,
     primal: bool,
+    /// Sharp edges, sides of joints and faces of holes of the control mesh.
+    features: [u64; 2],
 }
 
 impl Prediction {
@@ -48,7 +50,9 @@ impl Prediction {
             })?);
         }
         let primal = scheme.split() != SplitKind::Corner;
-        Ok(Self { levels: counts, passes: scheme.passes().len(), primal })
+        let edges = mesh.sharpness.edges.len() + mesh.joints.sides.len();
+        let features = [edges as u64, mesh.holes.len() as u64];
+        Ok(Self { levels: counts, passes: scheme.passes().len(), primal, features })
     }
 
     /// Predicts the values of a face-varying channel: they are what the counts call
@@ -102,7 +106,29 @@ impl Prediction {
     /// Bytes of the adjacency of all levels but the first; all byte counts stop at
     /// the largest 64-bit number.
     pub fn topology_bytes(&self) -> u64 {
-        saturate(self.levels.iter().skip(1).map(topology_bytes).sum())
+        let levels = self.levels.iter().skip(1).map(topology_bytes).sum::<u128>();
+        let inner = &self.levels[..self.levels.len() - 1];
+        let edges = inner.last().map_or(0, |counts| self.edge_bytes(counts));
+        saturate(levels + edges + self.feature_bytes(self.levels.len()))
+    }
+
+    /// Numbers of the edges of a level that is split, and a set of its vertices.
+    fn edge_bytes(&self, counts: &Counts) -> u128 {
+        if !self.primal {
+            return 0;
+        }
+        4 * (u128::from(counts.corners) + u128::from(counts.edges))
+            + u128::from(counts.vertices) / 8
+    }
+
+    /// About what sharp edges, joints and holes take on the first levels: their number
+    /// doubles from level to level, that of the faces of holes is four times as much; lists
+    /// of them are collected, sorted and looked up in several places at once.
+    fn feature_bytes(&self, levels: usize) -> u128 {
+        const EACH: u128 = 96;
+        let [edges, holes] = self.features.map(u128::from);
+        let levels = levels.min(32) as u32;
+        EACH * edges * ((1 << levels) - 1) + 8 * holes * ((1 << (2 * levels.min(16))) - 1) / 3
     }
 
     /// Bytes of the last level's faces and of `width` values of `size` bytes on
@@ -131,10 +157,9 @@ impl Prediction {
             _ => stored.unwrap_or(0).saturating_add(last),
         };
         let copies = if width > 7 { last } else { 0 };
-        // Numbers of the edges of the level before the last, and a set of vertices.
-        let edges = inner.last().filter(|_| self.primal);
-        let edges = edges.map_or(0, |c| 4 * u128::from(c.corners) + u128::from(c.vertices) / 8);
-        let parts = [topology, places, values, stages, copies, edges];
+        let edges = inner.last().map_or(0, |counts| self.edge_bytes(counts));
+        let features = self.feature_bytes(inner.len());
+        let parts = [topology, places, values, stages, copies, edges, features];
         saturate(parts.into_iter().fold(0, u128::saturating_add))
     }
 }
@@ -153,5 +178,12 @@ fn topology_bytes(counts: &Counts) -> u128 {
     // boundary's lists; fan starts and the set of special vertices.
     let irregular = 9 * n(counts.irregular_corners) + 8 * n(counts.irregular_faces);
     let vertices = 4 * n(counts.vertices) + n(counts.vertices) / 8;
-    8 * n(counts.corners) + vertices + n(counts.faces) + irregular + 12 * n(counts.boundary_edges)
+    // Interior vertices of valence 6 are listed as special.
+    let listed = if counts.has_triangles() { 4 * n(counts.vertices) } else { 0 };
+    listed
+        + 8 * n(counts.corners)
+        + vertices
+        + n(counts.faces)
+        + irregular
+        + 12 * n(counts.boundary_edges)
 }

@@ -105,7 +105,10 @@ impl<'a> PrimalStep<'a> {
         let (mut ruled_vertices, mut ruled_edges) = (Vec::new(), Vec::new());
         if !linear {
             let values = |v: u32| mesh.fans(v).map(|c| channel.vert[c as usize]);
-            memory::extend(&mut ruled_vertices, scheme.ruled_vertices(mesh).flat_map(values))?;
+            let mut ruled = memory::collect(scheme.ruled_vertices(mesh))?;
+            ruled.sort_unstable();
+            ruled.dedup();
+            memory::extend(&mut ruled_vertices, ruled.into_iter().flat_map(values))?;
             memory::extend(&mut ruled_vertices, level.split.iter().map(|value| value.1))?;
             ruled_vertices.sort_unstable();
             ruled_vertices.dedup();

@@ -264,8 +264,8 @@ impl<T: Scalar> Task<'_, T> {
             let plan = data.plan(self.mesh, self.scheme, self.levels)?;
             let width = data.width as u64;
             let output = if with_output { plan.output_bytes(width, T::BYTES) } else { 0 };
-            let bytes = plan.refiner_bytes(width, T::BYTES, false).saturating_add(output);
-            channels = channels.saturating_add(bytes).saturating_add(data.copied_bytes());
+            let bytes = data.scratch_bytes(&plan).saturating_add(output);
+            channels = channels.saturating_add(bytes);
         }
         let widths = self.attributes.iter().map(|a| a.width as u64);
         let width = widths.fold(3, u64::saturating_add);

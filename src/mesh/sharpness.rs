@@ -68,17 +68,7 @@ pub(super) fn collect(
     vertices: usize,
 ) -> Result<Sharpness> {
     let copies = Copies::new(source, vertices)?;
-    let mut edges = Vec::new();
-    for crease in creases {
-        let sharpness = checked(crease.sharpness, || edge_element(crease))?;
-        let ends = crease.vertices;
-        let corners =
-            memory::collect(copies.of(ends[0]).flat_map(|a| sides(mesh, &copies, a, ends)))?;
-        if corners.is_empty() {
-            return Err(invalid("a crease", "names no edge of the mesh", edge_element(crease)));
-        }
-        memory::extend(&mut edges, corners.into_iter().map(|c| (c, sharpness)))?;
-    }
+    let mut edges = find_edges(mesh, creases, &copies, vertices)?;
     // The boundary is infinitely sharp in any case.
     edges.retain(|&(c, _)| mesh.twin[c as usize] != NONE);
     let edges = unique(edges, |c| {
@@ -114,21 +104,42 @@ fn checked(sharpness: f32, element: impl Fn() -> Element) -> Result<f32> {
     Err(invalid("a tag", &why, element()))
 }
 
-/// The first corners of the edges at vertex `a` that run between two of the caller's
-/// vertices.
-fn sides<'m>(
-    mesh: &'m Mesh,
-    copies: &'m Copies<'m>,
-    a: u32,
-    ends: [u32; 2],
-) -> impl Iterator<Item = u32> + 'm {
-    let leads = move |v: u32| copies.origin(v) == ends[1];
-    mesh.fans(a).flat_map(move |c| {
-        let (next, before) = (mesh.next(c), mesh.prev(c));
-        let out = leads(mesh.vert[next as usize]).then(|| mesh.first_of_edge(c));
-        let into = leads(mesh.vert[before as usize]).then(|| mesh.first_of_edge(before));
-        out.into_iter().chain(into)
-    })
+/// The first corners of the creases' edges with their sharpness: one look at every edge.
+fn find_edges(
+    mesh: &Mesh,
+    creases: &[Crease],
+    copies: &Copies,
+    vertices: usize,
+) -> Result<Vec<(u32, f32)>> {
+    let key = |[a, b]: [u32; 2]| (a.min(b), a.max(b));
+    let mut wanted = memory::reserved(creases.len())?;
+    for (crease, number) in creases.iter().zip(0_u32..) {
+        checked(crease.sharpness, || edge_element(crease))?;
+        if crease.vertices.iter().any(|&v| v as usize >= vertices) {
+            return Err(invalid("a crease", "names no edge of the mesh", edge_element(crease)));
+        }
+        wanted.push((key(crease.vertices), number));
+    }
+    wanted.sort_unstable();
+    let mut found = memory::filled(false, wanted.len())?;
+    let mut edges = Vec::new();
+    let all = 0..if wanted.is_empty() { 0 } else { mesh.layout.corners() };
+    for c in all.filter(|&c| mesh.is_first_of_edge(c)) {
+        let ends = [c, mesh.next(c)].map(|c| copies.origin(mesh.vert[c as usize]));
+        let first = wanted.partition_point(|(edge, _)| *edge < key(ends));
+        let same = wanted[first..].iter().take_while(|(edge, _)| *edge == key(ends));
+        for (place, (_, number)) in (first..).zip(same) {
+            found[place] = true;
+            let sharpness = creases[*number as usize].sharpness.min(INFINITE);
+            memory::extend(&mut edges, [(c, sharpness)])?;
+        }
+    }
+    // The first of the caller's creases that was not met.
+    let lost = wanted.iter().zip(&found).filter(|(_, found)| !**found).map(|(w, _)| w.1).min();
+    match lost.map(|number| &creases[number as usize]) {
+        Some(crease) => Err(invalid("a crease", "names no edge of the mesh", edge_element(crease))),
+        None => Ok(edges),
+    }
 }
 
 /// Sorts tags by element; the same element twice must say the same.

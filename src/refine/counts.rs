@@ -176,6 +176,11 @@ impl Counts {
         }
     }
 
+    /// True if all faces are triangles.
+    pub(crate) fn has_triangles(&self) -> bool {
+        self.triangles
+    }
+
     /// Corners of faces that are no quads, whose split points a pass stores.
     pub(crate) fn stored_corners(&self) -> u64 {
         if self.triangles { self.corners } else { self.irregular_corners }

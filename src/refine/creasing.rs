@@ -17,18 +17,6 @@ pub enum Creasing {
 }
 
 impl Creasing {
-    /// The sharpness of the half of an edge at one of its ends.
-    pub(crate) fn edge_at(self, mesh: &Mesh, sharpness: f32, vertex: u32) -> f32 {
-        match self {
-            Self::Uniform => decrement(sharpness),
-            Self::Chaikin => {
-                let mut around = Around::default();
-                mesh.each_edge_at(vertex, |_, sharpness| around.add(sharpness));
-                self.edge(sharpness, around)
-            }
-        }
-    }
-
     /// The sharpness of the half of an edge, given all edges around that end.
     pub(crate) fn edge(self, sharpness: f32, around: Around) -> f32 {
         let smooth = sharpness <= 0.0 || sharpness >= INFINITE;
@@ -51,6 +39,26 @@ pub(crate) fn decrement(sharpness: f32) -> f32 {
     if sharpness >= INFINITE { INFINITE } else { (sharpness - 1.0).max(0.0) }
 }
 
+/// What lies around the vertices with a sharp edge, each looked at once.
+#[derive(Debug, Default)]
+pub(crate) struct Arounds(Vec<(u32, Around)>);
+
+impl Arounds {
+    pub(super) fn new(mesh: &Mesh) -> Result<Self> {
+        let corners = mesh.sharpness.edges.iter().flat_map(|&(c, _)| [c, mesh.next(c)]);
+        let mut vertices = memory::collect(corners.map(|c| mesh.vert[c as usize]))?;
+        vertices.sort_unstable();
+        vertices.dedup();
+        memory::collect(vertices.into_iter().map(|v| (v, Around::of(mesh, v)))).map(Self)
+    }
+
+    /// What lies around a vertex; nothing, if no sharp edge is listed there.
+    pub(crate) fn at(&self, vertex: u32) -> Around {
+        let found = self.0.binary_search_by_key(&vertex, |&(v, _)| v);
+        found.map_or(Around::default(), |i| self.0[i].1)
+    }
+}
+
 /// The semi-sharp edges around a vertex.
 #[derive(Debug, Clone, Copy, Default)]
 pub(crate) struct Around {
@@ -59,6 +67,13 @@ pub(crate) struct Around {
 }
 
 impl Around {
+    /// Looks around a vertex.
+    pub(crate) fn of(mesh: &Mesh, vertex: u32) -> Self {
+        let mut around = Self::default();
+        mesh.each_edge_at(vertex, |_, sharpness| around.add(sharpness));
+        around
+    }
+
     /// Counts an edge, unless it is smooth or infinitely sharp.
     pub(crate) fn add(&mut self, sharpness: f32) {
         if sharpness > 0.0 && sharpness < INFINITE {

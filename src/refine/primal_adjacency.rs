@@ -167,7 +167,7 @@ impl PrimalSplit<'_> {
             ];
             for (half, end) in halves {
                 let vertex = self.parent.vert[end as usize];
-                let left = creasing.edge_at(self.parent, sharpness, vertex);
+                let left = creasing.edge(sharpness, self.arounds.at(vertex));
                 memory::extend(&mut sharp, (left > 0.0).then_some((half, left)))?;
             }
         }

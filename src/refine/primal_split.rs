@@ -16,6 +16,7 @@
 //! twin `end_half(t)`, `end_half(c)` leads on from the middle.
 
 use super::counts::Counts;
+use super::creasing::Arounds;
 use super::edges::EdgeNumbers;
 use crate::base::{Context, Error, ErrorKind, NONE, Result};
 use crate::mesh::Mesh;
@@ -74,6 +75,8 @@ pub(crate) struct PrimalSplit<'a> {
     pub(super) pieces: Pieces,
     pub(crate) counts: Counts,
     pub(crate) edges: EdgeNumbers,
+    /// The sharp edges around the vertices that have some.
+    pub(crate) arounds: Arounds,
 }
 
 impl<'a> PrimalSplit<'a> {
@@ -91,8 +94,9 @@ impl<'a> PrimalSplit<'a> {
         let counts = Self::split_counts(&Counts::sizes_of(parent), pieces)
             .ok_or_else(|| Error::new(ErrorKind::TooLarge, "the split exceeds 64-bit sizes"))?;
         counts.check_index_type()?;
+        let arounds = Arounds::new(parent)?;
         let edges = EdgeNumbers::new(context, parent, memory)?;
-        Ok(Self { parent, pieces, counts, edges })
+        Ok(Self { parent, pieces, counts, edges, arounds })
     }
 
     /// The counts of the split mesh, `None` past 64 bits.

@@ -190,10 +190,13 @@ impl Scheme {
         if self.boundary != Boundary::None || !self.creases() {
             return Ok(holes);
         }
-        for &c in mesh.rim.iter().filter(|&&c| mesh.joints.leader(c).is_none()) {
-            for v in [c, mesh.next(c)].map(|c| mesh.vert[c as usize]) {
-                memory::extend(&mut holes, mesh.fans(v).map(|c| mesh.layout.face_of(c)))?;
-            }
+        let boundary = mesh.rim.iter().filter(|&&c| mesh.joints.leader(c).is_none());
+        let ends = boundary.flat_map(|&c| [c, mesh.next(c)]).map(|c| mesh.vert[c as usize]);
+        let mut vertices = memory::collect(ends)?;
+        vertices.sort_unstable();
+        vertices.dedup();
+        for v in vertices {
+            memory::extend(&mut holes, mesh.fans(v).map(|c| mesh.layout.face_of(c)))?;
         }
         holes.sort_unstable();
         holes.dedup();

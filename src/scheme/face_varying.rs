@@ -113,8 +113,9 @@ impl<'a> ChannelRules<'a> {
         }
         let value = |c: u32| channel.vert[c as usize];
         let apart = |&v: &u32| mesh.fans(v).any(|c| value(c) != value(mesh.start[v as usize]));
-        let several = mesh.joints.fans.iter().map(|&(v, _)| v);
-        memory::extend(&mut vertices, several.filter(apart))?;
+        let mut several = memory::collect(mesh.joints.fans.iter().map(|&(v, _)| v))?;
+        several.dedup();
+        memory::extend(&mut vertices, several.into_iter().filter(apart))?;
         vertices.sort_unstable();
         vertices.dedup();
         Ok(vertices)
@@ -232,8 +233,7 @@ impl<'a> ChannelRules<'a> {
     /// Sharpness before and after the step of the edges inside the run of a value.
     fn inside(self, mesh: &Mesh, channel: &Mesh, slot: u32) -> Vec<(f32, f32)> {
         let v = mesh.vert[channel.start[slot as usize] as usize];
-        let mut around = Around::default();
-        mesh.each_edge_at(v, |_, sharpness| around.add(sharpness));
+        let around = Around::of(mesh, v);
         let corners = channel.fan(slot).filter(|&c| channel.twin[c as usize] != NONE);
         let sharpness = corners.map(|c| mesh.edge_sharpness(c));
         sharpness.map(|s| (s, self.scheme.creasing().edge(s, around))).collect()

@@ -107,7 +107,8 @@ impl<'a, W: Weight> PrimalRows<'a, W> {
     /// True if both halves of an edge, given by corners at its ends, are still sharp.
     fn stays_sharp(&self, sharpness: f32, ends: [u32; 2]) -> bool {
         let (parent, creasing) = (self.split.parent(), self.scheme.creasing());
-        ends.iter().all(|&c| creasing.edge_at(parent, sharpness, parent.vert[c as usize]) > 0.0)
+        let around = |c: u32| self.split.arounds.at(parent.vert[c as usize]);
+        ends.iter().all(|&c| creasing.edge(sharpness, around(c)) > 0.0)
     }
 
     fn triangles_beside(&self, corner: u32) -> usize {

@@ -23,6 +23,9 @@ pub(crate) struct VertexMask<W> {
     pub(crate) face: W,
 }
 
+/// The largest valence whose mask is kept.
+const TABLE: usize = 64;
+
 /// Which rules.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Rules {
@@ -85,6 +88,9 @@ impl<W: Weight> SmoothMasks<W> {
 
     /// The mask of an interior vertex of valence n ≥ 2.
     pub(crate) fn vertex(&mut self, n: usize) -> VertexMask<W> {
+        if n > TABLE {
+            return self.of_valence(n);
+        }
         if self.by_valence.len() <= n {
             self.by_valence.resize(n + 1, None);
         }

@@ -25,6 +25,23 @@ fn torus(triangles: bool) -> Mesh {
     build(&Context::serial(), 20, &sizes, &faces, &options).unwrap().mesh
 }
 
+/// The last edge of an open fan is no crease, and no neighbour of one.
+#[test]
+fn creases_that_reach_a_boundary_are_tracked() {
+    let faces = [0, 1, 5, 4, 1, 2, 6, 5, 2, 3, 7, 6];
+    let creases =
+        [Crease { vertices: [1, 5], sharpness: 2.0 }, Crease { vertices: [2, 6], sharpness: 3.0 }];
+    let options = BuildOptions { creases: &creases, ..BuildOptions::default() };
+    let strip = build(&Context::serial(), 8, &[4; 3], &faces, &options).unwrap().mesh;
+    let scheme = Scheme::catmull_clark().with_creasing(Creasing::Chaikin);
+    let hierarchy = Hierarchy::new(&Context::serial(), strip.clone(), scheme.clone(), 2).unwrap();
+    for level in 0..=2 {
+        let faces = refined_faces(&strip, &scheme, level);
+        let left = creases_left(&strip, &scheme, level, &faces).unwrap();
+        assert_eq!(sorted(left), sorted(hierarchy.mesh(level).creases()), "level {level}");
+    }
+}
+
 /// Edges with both ends in order, ascending, and the bits of their sharpness.
 fn sorted(creases: impl IntoIterator<Item = Crease>) -> Vec<([u32; 2], u32)> {
     let tag = |crease: Crease| {
