@@ -377,8 +377,8 @@ fn channels_and_outputs_of_other_sizes_are_refused() {
     assert_eq!(refused(&mesh, &[0.0; 24]), Some(ErrorKind::LengthMismatch));
     assert_eq!(refused(&mesh, &[f64::NAN; 25]), Some(ErrorKind::NotFinite));
     assert_eq!(refused(&triangles, &[0.0; 25]), Some(ErrorKind::LengthMismatch));
-    // As many faces and corners: nothing tells that mesh from its own.
-    assert_eq!(refused(&other, &[0.0; 25]), None);
+    // As many faces and corners, but other vertices.
+    assert_eq!(refused(&other, &[0.0; 25]), Some(ErrorKind::LengthMismatch));
     let plan = *Prediction::of_channel(&channel, &scheme, 1).unwrap().last();
     let into = |indices: u64, values: u64| {
         let positions = [0.0; 75];
