@@ -331,6 +331,7 @@ fn bilinear_refinement_is_linear_in_every_mode() {
     let halves = halves().with(Scheme::bilinear());
     check(&halves, (LEFT, 12), [x(12); 6], "a seam");
     check(&halves, (0, 6), [x(6); 6], "no seam");
+    assert_eq!(halves.on_edge(Smooth, LEFT, 6), mean(6, 7));
     let center = halves.refine(Smooth, 1);
     let found = center.values[center.indices[4 * 4 * RIGHT + 2] as usize];
     assert_eq!(found, (x(37) + x(8) + x(13) + x(42)) / 4.0);
