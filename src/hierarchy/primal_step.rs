@@ -12,6 +12,9 @@ use crate::refine::PrimalSplit;
 use crate::scheme::{ChannelLevel, ChannelRules, SplitValue};
 use crate::scheme::{PointSink, PrimalRows, Scheme, SmoothMasks};
 
+/// Vertices of a tile: with their faces they stay in a second-level cache.
+const TILE: usize = 4096;
+
 /// One primal step of a scheme on one mesh, ready to be applied to values.
 pub(super) struct PrimalStep<'a> {
     split: &'a PrimalSplit<'a>,
@@ -194,9 +197,12 @@ impl<'a> PrimalStep<'a> {
             old.copy_from_slice(values);
             return Ok(());
         }
-        context.fill(old, 1, |start, part| {
+        let tiles = tiles(context, old, &self.split.parent().runs)?;
+        context.for_each(tiles, |tile| {
             let mut kernel = VertexKernel::new(self.split, &self.masks, values, faces);
-            kernel.run(start as u32, part, &self.ruled);
+            for (first, part) in tile {
+                kernel.run(first, part, &self.ruled);
+            }
         })?;
         let (mut rows, mut sum) = (self.rows(), Points::new(values, faces));
         for &v in &self.ruled_vertices {
@@ -230,6 +236,32 @@ impl<'a> PrimalStep<'a> {
         }
         Ok(())
     }
+}
+
+/// Pieces of an array, each with the place of its first entry.
+type Tile<'o, V> = Vec<(u32, &'o mut [V])>;
+
+/// Cuts an array whose runs all follow the order of the faces into tiles that hold the same
+/// part of every run: what belongs to some faces is computed together, while they are in
+/// the cache, and not once for each run.
+fn tiles<'o, V>(context: &Context, out: &'o mut [V], runs: &[u32]) -> Result<Vec<Tile<'o, V>>> {
+    let count = context.chunks(out.len()).len().max(out.len() / TILE).max(1);
+    let mut tiles = memory::reserved(count)?;
+    tiles.resize_with(count, Vec::new);
+    let ends = runs.iter().map(|&v| v as usize).chain([out.len()]);
+    let (mut rest, mut start) = (out, 0);
+    for end in ends {
+        let (mut run, later) = rest.split_at_mut(end - start);
+        let len = run.len();
+        for (i, tile) in tiles.iter_mut().enumerate() {
+            let (from, to) = (len * i / count, len * (i + 1) / count);
+            let (part, others) = run.split_at_mut(to - from);
+            memory::extend(tile, (!part.is_empty()).then_some(((start + from) as u32, part)))?;
+            run = others;
+        }
+        (rest, start) = (later, end);
+    }
+    Ok(tiles)
 }
 
 /// A row on old vertices and new vertices of faces, applied to stored values.

@@ -62,8 +62,8 @@ pub struct Task<'a, T> {
 /// Where the result goes; sizes by [`Prediction::last`].
 #[derive(Debug)]
 pub struct Output<'a, T> {
-    /// The size of every face, if wanted. All faces but the first
-    /// `irregular_faces` are quads (from level 1 on).
+    /// The size of every face, if wanted. From level 1 on all are triangles after
+    /// triangle splits, and all but the first `irregular_faces` are quads after others.
     pub face_sizes: Option<&'a mut [u32]>,
     /// The concatenated vertices of all faces, if wanted.
     pub face_vertices: Option<&'a mut [u32]>,

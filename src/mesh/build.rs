@@ -269,6 +269,7 @@ impl Soup {
             sharpness: Sharpness::default(),
             joints: Joints::default(),
             holes: Vec::new(),
+            runs: Vec::new(),
             corner_tags: Vec::new(),
             anchored: false,
             face_source: self.source,

@@ -86,6 +86,7 @@ impl Channel {
             sharpness: Sharpness::default(),
             joints: Joints::default(),
             holes: Vec::new(),
+            runs: Vec::new(),
             corner_tags: Vec::new(),
             anchored: false,
             face_source: None,

@@ -14,6 +14,7 @@
 //! | `sharpness` | – | the sharp interior edges and vertices |
 //! | `joints` | – | edges and fans of a mesh that is not manifold |
 //! | `holes` | – | the faces that are holes |
+//! | `runs` | – | where runs of vertices begin that follow the order of the faces |
 //!
 //! The fan of a boundary vertex starts at the corner whose outgoing edge is the
 //! boundary edge; that of an interior vertex at its smallest corner, or, in a
@@ -70,6 +71,8 @@ pub struct Mesh {
     pub(crate) sharpness: Sharpness,
     pub(crate) joints: Joints,
     pub(crate) holes: Vec<u32>,
+    /// Where runs of vertices begin, beside 0, that follow the order of the faces.
+    pub(crate) runs: Vec<u32>,
     pub(crate) corner_tags: Vec<u32>,
     pub(crate) anchored: bool,
     /// Input face of each face, where the order was changed.

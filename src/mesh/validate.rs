@@ -100,6 +100,9 @@ impl Mesh {
         self.check_near()?;
         self.check_joints()?;
         ensure(self.sharpness.is_consistent(self), "sharpness", self.sharpness.edges.len())?;
+        let runs =
+            self.runs.is_sorted() && self.runs.iter().all(|&v| v as usize <= self.start.len());
+        ensure(runs, "runs", self.runs.len())?;
         let holes = self.holes.windows(2).all(|pair| pair[0] < pair[1])
             && self.holes.iter().all(|&f| (f as usize) < self.faces());
         ensure(holes, "holes", self.holes.len())?;

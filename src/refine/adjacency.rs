@@ -75,6 +75,7 @@ impl CornerSplit<'_> {
             sharpness: Sharpness::default(),
             joints: Joints::default(),
             holes: Vec::new(),
+            runs: Vec::new(),
             corner_tags: Vec::new(),
             anchored,
             face_source: None,

@@ -42,6 +42,7 @@ impl PrimalSplit<'_> {
             },
             joints: self.joints()?,
             holes: self.children_of(holes)?,
+            runs: self.runs()?,
             corner_tags: memory::copied(&self.parent.corner_tags)?,
             anchored: false,
             face_source: None,
@@ -139,6 +140,12 @@ impl PrimalSplit<'_> {
         let odd = if layout.side() == 4 { layout.irregular_faces() } else { layout.faces() };
         memory::extend(&mut special, (0..odd).map(|f| self.face_vertex(f)))?;
         Ok(special)
+    }
+
+    /// The old vertices keep their runs; those on edges and in faces follow the faces.
+    fn runs(&self) -> Result<Vec<u32>> {
+        let added = [self.first_edge_vertex(), self.first_face_vertex()];
+        memory::collect(self.parent.runs.iter().copied().chain(added))
     }
 
     /// Both halves of the outgoing edges of some corners, ascending.

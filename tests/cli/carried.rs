@@ -184,7 +184,7 @@ fn tags_are_kept_at_level_zero_and_told_where_they_are_not() {
     assert_eq!(before.scheme, after.scheme);
     let run = bench.run("subdivide tags.obj -o out.obj --levels 1").ok();
     let note = "left out 1 crease, 2 sharp vertices, the tags of the scheme: \
-        three-point has no rules for them, catmull-clark and loop have";
+        three-point has none, catmull-clark, loop and bilinear have";
     assert!(run.err.contains(note), "{}", run.err);
     assert!(bench.mesh("out.obj").creases.is_empty());
 }

@@ -122,7 +122,10 @@ fn what_a_file_asks_of_the_scheme_is_followed_and_overruled() {
     assert_eq!(scheme.creasing, Some(CreasingTag::Chaikin));
     let overruled = run("tags.obj -o overruled.obj --boundary edge-corner").ok().json();
     assert_eq!(overruled["scheme"]["boundary"], "edge-corner");
-    assert_eq!(bench.mesh("overruled.obj").scheme.boundary, None);
+    assert_eq!(bench.mesh("overruled.obj").scheme.boundary, Some(BoundaryTag::EdgeAndCorner));
+    run("plain.obj -o asked.obj --boundary edge --creasing chaikin").ok();
+    let asked = bench.mesh("asked.obj").scheme;
+    assert_eq!((asked.boundary, asked.creasing), (scheme.boundary, scheme.creasing));
     assert_eq!(run("plain.obj -o plain.ply").ok().json()["scheme"]["boundary"], "edge-corner");
 }
 

@@ -157,7 +157,9 @@ fn refuse_shared_names(jobs: &[Job]) -> Result<(), Failure> {
     let twice = seen.windows(2).find(|pair| pair[0].0 == pair[1].0 && !is_stream(pair[0].0));
     twice.map_or(Ok(()), |pair| {
         let [result, first, second] = [pair[0].0, pair[0].1, pair[1].1].map(shown);
-        let message = if first == second {
+        let message = if first == second && jobs.len() > 1 {
+            format!("{result}: {first} is given twice")
+        } else if first == second {
             format!("{result}: both the mesh and the picture would get this name")
         } else {
             format!("{result}: both {first} and {second} would get this name")

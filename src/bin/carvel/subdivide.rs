@@ -13,7 +13,7 @@ use crate::report::{self, Done, Level, Seconds, Settings};
 use crate::session::Session;
 use crate::tags;
 use crate::text::counted;
-use carvel::io::{self, MeshFile, SchemeTags, WriteOptions};
+use carvel::io::{self, Format, MeshFile, SchemeTags, WriteOptions};
 use carvel::mesh::{BuildOptions, Built, build};
 use serde_json::Value;
 use std::fs;
@@ -110,10 +110,19 @@ impl Run<'_> {
             Input::read(self.session, &job.input, self.args.files.input_format)
         })?;
         input.require_faces()?;
-        let made = match self.args.levels {
+        let mut made = match self.args.levels {
             0 => self.convert(input, &mut seconds)?,
             _ => self.refine(&input, &mut seconds)?,
         };
+        if job.format == Format::Obj && made.chosen.has_features() {
+            // So that a refinement can go on from the file, whoever asked for its modes.
+            let asked = self.args.scheme.asked();
+            let file = &mut made.file.scheme;
+            file.boundary = asked.boundary.or(file.boundary);
+            file.creasing = asked.creasing.or(file.creasing);
+            file.triangles = asked.triangles.or(file.triangles);
+            file.face_varying = asked.face_varying.or(file.face_varying);
+        }
         self.write(job, &made.file, &mut seconds)?;
         seconds.total = start.elapsed();
         let notes = self.tell(job, &made);

@@ -78,7 +78,7 @@ pub fn ignored(file: &MeshFile, scheme: &str) -> Option<String> {
     }
     (!ignored.is_empty()).then(|| {
         let ignored = ignored.join(", ");
-        format!("left out {ignored}: {scheme} has no rules for them, catmull-clark and loop have")
+        format!("left out {ignored}: {scheme} has none, catmull-clark, loop and bilinear have")
     })
 }
 

@@ -212,3 +212,44 @@ impl From<FaceVaryingTag> for Uv {
         }
     }
 }
+
+impl From<Edges> for BoundaryTag {
+    fn from(edges: Edges) -> Self {
+        match edges {
+            Edges::None => Self::None,
+            Edges::Edge => Self::Edge,
+            Edges::EdgeCorner => Self::EdgeAndCorner,
+        }
+    }
+}
+
+impl From<Method> for CreasingTag {
+    fn from(method: Method) -> Self {
+        match method {
+            Method::Uniform => Self::Uniform,
+            Method::Chaikin => Self::Chaikin,
+        }
+    }
+}
+
+impl From<Triangles> for TriangleTag {
+    fn from(triangles: Triangles) -> Self {
+        match triangles {
+            Triangles::CatmullClark => Self::CatmullClark,
+            Triangles::Smooth => Self::Smooth,
+        }
+    }
+}
+
+impl From<Uv> for FaceVaryingTag {
+    fn from(uv: Uv) -> Self {
+        match uv {
+            Uv::Smooth => Self::None,
+            Uv::Corners => Self::CornersOnly,
+            Uv::CornersPlus1 => Self::CornersPlus1,
+            Uv::CornersPlus2 => Self::CornersPlus2,
+            Uv::Boundaries => Self::Boundaries,
+            Uv::All => Self::All,
+        }
+    }
+}

@@ -138,6 +138,16 @@ impl SchemeArgs {
         })
     }
 
+    /// The options as tags of a file.
+    pub fn asked(&self) -> SchemeTags {
+        SchemeTags {
+            boundary: self.boundary.map(Into::into),
+            creasing: self.creasing.map(Into::into),
+            triangles: self.triangle_rule.map(Into::into),
+            face_varying: self.uv.map(Into::into),
+        }
+    }
+
     /// The tags that no option overrules.
     fn followed(&self, tags: SchemeTags) -> SchemeTags {
         SchemeTags {
