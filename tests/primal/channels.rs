@@ -331,6 +331,7 @@ fn bilinear_refinement_is_linear_in_every_mode() {
     let halves = halves().with(Scheme::bilinear());
     check(&halves, (LEFT, 12), [x(12); 6], "a seam");
     check(&halves, (0, 6), [x(6); 6], "no seam");
+    assert_eq!(halves.on_edge(Smooth, LEFT, 6), mean(6, 7));
     let center = halves.refine(Smooth, 1);
     let found = center.values[center.indices[4 * 4 * RIGHT + 2] as usize];
     assert_eq!(found, (x(37) + x(8) + x(13) + x(42)) / 4.0);
@@ -377,8 +378,8 @@ fn channels_and_outputs_of_other_sizes_are_refused() {
     assert_eq!(refused(&mesh, &[0.0; 24]), Some(ErrorKind::LengthMismatch));
     assert_eq!(refused(&mesh, &[f64::NAN; 25]), Some(ErrorKind::NotFinite));
     assert_eq!(refused(&triangles, &[0.0; 25]), Some(ErrorKind::LengthMismatch));
-    // As many faces and corners: nothing tells that mesh from its own.
-    assert_eq!(refused(&other, &[0.0; 25]), None);
+    // As many faces and corners, but other vertices.
+    assert_eq!(refused(&other, &[0.0; 25]), Some(ErrorKind::LengthMismatch));
     let plan = *Prediction::of_channel(&channel, &scheme, 1).unwrap().last();
     let into = |indices: u64, values: u64| {
         let positions = [0.0; 75];
