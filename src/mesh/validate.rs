@@ -6,7 +6,8 @@ use crate::base::{Error, ErrorKind, NONE, Result, memory};
 
 impl Mesh {
     /// Checks every stored invariant: the table in the module's documentation,
-    /// and that the topology is an orientable 2-manifold. O(H).
+    /// and that the topology is an orientable 2-manifold but for the joints of policy
+    /// `sharpen`. O(H).
     ///
     /// # Errors
     /// [`ErrorKind::BrokenInvariant`], which is a defect of this library;

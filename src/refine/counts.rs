@@ -1,4 +1,4 @@
-//! How large the children of a corner split are, without building them.
+//! How large the children of a split are, without building them.
 
 use super::Anchor;
 use crate::base::{Error, ErrorKind, NONE, Result};
