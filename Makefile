@@ -34,7 +34,7 @@ lint: tools
 
 # Minutes of work: more random meshes, a large mesh, fuzzing.
 deep: tools
-	PROPTEST_CASES=512 $(CARGO) test --workspace --all-features --release --locked
+	PROPTEST_CASES=512 CARVEL_PEER_LEVELS=5 $(CARGO) test --workspace --all-features --release --locked
 	tests/capi/tsan.sh
 	$(CARGO) build --release --locked
 	mkdir -p out/deep

@@ -21,7 +21,8 @@ impl Failures {
         }
     }
 
-    /// Compares both precisions at levels 1 to `levels`.
+    /// Compares both precisions at levels 1 to `levels`, or deeper if
+    /// `CARVEL_PEER_LEVELS` says so.
     pub fn levels(
         &mut self,
         control: &Control,
@@ -32,7 +33,7 @@ impl Failures {
     ) {
         for precision in Precision::ALL {
             let task = Task { control, scheme, precision, options };
-            for level in 1..=levels {
+            for level in 1..=levels.max(asked()) {
                 self.compare(&task, level, what);
             }
         }
@@ -51,6 +52,12 @@ impl Failures {
         let some: Vec<_> = self.0.iter().take(40).map(String::as_str).collect();
         assert!(self.0.is_empty(), "{} differ:\n{}", self.0.len(), some.join("\n"));
     }
+}
+
+/// The least number of levels that the environment asks for.
+fn asked() -> u32 {
+    let levels = std::env::var("CARVEL_PEER_LEVELS").ok();
+    levels.map_or(0, |levels| levels.parse().expect("CARVEL_PEER_LEVELS is a number"))
 }
 
 /// Our answer to the first task against theirs to the second.
