@@ -11,7 +11,7 @@ mod tags;
 pub use context::{CancelFlag, Context, ContextBuilder};
 pub use error::{Element, Error, ErrorKind, Result};
 pub use fraction::Fraction;
-pub use scalar::{Scalar, Weight};
+pub use scalar::{Scalar, Summand, Weight};
 pub use tags::{Crease, SharpVertex};
 
 /// The index that stands for "none": no twin, no source, no vertex.

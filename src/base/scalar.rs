@@ -53,9 +53,29 @@ impl Weight for f64 {
     }
 }
 
+/// What can be added up and compared, a number or several side by side.
+pub trait Summand: Copy + Add<Output = Self> {
+    /// The larger one, for each lane.
+    #[must_use]
+    fn larger(self, other: Self) -> Self;
+}
+
+macro_rules! summands {
+    ($($type:ty),*) => {$(
+        impl Summand for $type {
+            #[inline(always)]
+            fn larger(self, other: Self) -> Self {
+                self.max(other)
+            }
+        }
+    )*};
+}
+
+summands!(f32, f64, glam::Vec4, glam::DVec4);
+
 /// A number in which coordinates are stored: `f32` or `f64`.
 pub trait Scalar:
-    Copy
+    Summand
     + Default
     + Debug
     + PartialEq
@@ -63,14 +83,13 @@ pub trait Scalar:
     + Sync
     + 'static
     + bytemuck::Zeroable
-    + Add<Output = Self>
     + Sub<Output = Self>
     + Mul<Output = Self>
 {
     /// Four values side by side, in vector registers where the processor has
     /// them. Multiplications and additions stay separate, so that every
     /// processor gives the same bits.
-    type Lanes: Copy + Add<Output = Self::Lanes> + Mul<Self, Output = Self::Lanes>;
+    type Lanes: Summand + Mul<Self, Output = Self::Lanes> + Send + Sync;
 
     /// Size in bytes.
     const BYTES: u64;

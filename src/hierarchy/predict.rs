@@ -2,7 +2,7 @@
 
 use crate::base::{Error, ErrorKind, Result};
 use crate::mesh::{Channel, Mesh};
-use crate::refine::{Counts, PrimalSplit};
+use crate::refine::{Counts, DEEPEST, PrimalSplit};
 use crate::scheme::{Scheme, SplitKind};
 
 /// The largest number of levels, for meshes that do not grow out of bounds
@@ -64,6 +64,22 @@ impl Prediction {
         let mut plan = Self::new(&channel.mesh, scheme, levels)?;
         plan.levels[0].vertices = channel.values as u64;
         Ok(plan)
+    }
+
+    /// How many of the last levels are worth a single step, patch by patch; 0 if there are
+    /// none.
+    pub(crate) fn patch_depth(&self) -> u32 {
+        /// Fewer patches do not pay for the tables.
+        const FEWEST: u64 = 256;
+        if !self.primal || self.passes > 0 {
+            return 0;
+        }
+        let levels = self.levels.len() as u32 - 1;
+        let enough = |&depth: &u32| {
+            let counts = self.counts(levels - depth);
+            counts.faces >= FEWEST && counts.irregular_faces == 0
+        };
+        (2..=DEEPEST.min(levels)).rev().find(enough).unwrap_or(0)
     }
 
     /// The counts of a level.

@@ -4,10 +4,55 @@
 //! caller writes those edges again.
 
 use super::kernel::{Value, narrow, widen};
-use crate::base::{NONE, Scalar};
+use crate::base::{NONE, Scalar, Summand};
 use crate::mesh::{Mesh, VertexSet, next_in_triangle, prev_in_triangle, turn_in_quad};
 use crate::refine::{Pieces, PrimalSplit};
 use crate::scheme::{SmoothMasks, VertexMask};
+use std::ops::Mul;
+
+// The regular rules, for one lane or several. Their sums are the same wherever one
+// starts around a vertex or a face and whichever side of an edge one comes from, so that
+// every path through the library gives the same bits.
+
+/// The mean of a quad's vertices.
+#[inline(always)]
+pub(super) fn face_mean<T: Scalar, V: Summand + Mul<T, Output = V>>([a, b, c, d]: [V; 4]) -> V {
+    ((a + c) + (b + d)) * T::from_f64(0.25)
+}
+
+/// The new vertex of an edge; `weights` are those of an end and of a side.
+#[inline(always)]
+pub(super) fn mix_edge<T: Scalar, V: Summand + Mul<T, Output = V>>(
+    weights: [T; 2],
+    ends: [V; 2],
+    sides: [V; 2],
+) -> V {
+    (ends[0] + ends[1]) * weights[0] + (sides[0] + sides[1]) * weights[1]
+}
+
+/// An old vertex from itself and from the sums over its neighbours and its faces.
+#[inline(always)]
+pub(super) fn mix_vertex<T: Scalar, V: Summand + Mul<T, Output = V>>(
+    weights: [T; 3],
+    own: V,
+    near: V,
+    faces: V,
+) -> V {
+    own * weights[0] + near * weights[1] + faces * weights[2]
+}
+
+/// The sum over what surrounds a regular vertex, in order.
+#[inline(always)]
+pub(super) fn regular_sum<V: Summand, const N: usize>(around: [V; N]) -> V {
+    let opposite = |i: usize| around[i] + around[i + N / 2];
+    if N == 4 {
+        return opposite(0) + opposite(1);
+    }
+    // Three numbers can be added in three ways; the largest result does not depend on
+    // which of them came first.
+    let [a, b, c] = [opposite(0), opposite(1), opposite(2)];
+    ((a + b) + c).larger((b + c) + a).larger((c + a) + b)
+}
 
 /// The new vertices of faces, from a face on: means of their vertices.
 pub(super) fn face_values<T: Scalar, const W: usize>(
@@ -27,10 +72,9 @@ pub(super) fn face_values<T: Scalar, const W: usize>(
     }
     let start = layout.irregular_corners() + 4 * (first.max(odd) - odd);
     let vertices = parent.vert[start.min(layout.corners()) as usize..].as_chunks::<4>().0;
-    let at = |v: u32| widen::<T, W>(&values[v as usize]);
-    let quarter = T::from_f64(0.25);
-    for (slot, &[a, b, c, d]) in quads.iter_mut().zip(vertices) {
-        *slot = narrow::<T, W>(((at(a) + at(b)) + (at(c) + at(d))) * quarter);
+    for (slot, quad) in quads.iter_mut().zip(vertices) {
+        let quad = quad.map(|v| widen::<T, W>(&values[v as usize]));
+        *slot = narrow::<T, W>(face_mean(quad));
     }
 }
 
@@ -38,9 +82,7 @@ pub(super) fn face_values<T: Scalar, const W: usize>(
 fn mean<T: Scalar, const W: usize>(values: &[Value<T, W>], vertices: &[u32]) -> Value<T, W> {
     let mut sum = [T::default(); W];
     for &v in vertices {
-        for (sum, &x) in sum.iter_mut().zip(&values[v as usize]) {
-            *sum = *sum + x;
-        }
+        add(&mut sum, &values[v as usize]);
     }
     let share = T::from_f64(1.0 / vertices.len() as f64);
     sum.map(|x| x * share)
@@ -52,8 +94,7 @@ pub(super) struct EdgeKernel<'v, T, const W: usize> {
     pieces: Pieces,
     values: &'v [Value<T, W>],
     faces: &'v [Value<T, W>],
-    end: T,
-    beside: T,
+    weights: [T; 2],
     /// Nothing but midpoints.
     linear: bool,
     /// Every edge has the same mask.
@@ -74,8 +115,7 @@ impl<'v, T: Scalar, const W: usize> EdgeKernel<'v, T, W> {
             pieces: split.pieces(),
             values,
             faces,
-            end: T::from_f64(mask.end),
-            beside: T::from_f64(mask.beside),
+            weights: [mask.end, mask.beside].map(T::from_f64),
             linear: masks.is_linear(),
             uniform: !(masks.minds_triangles() && triangles),
         }
@@ -112,14 +152,13 @@ impl<'v, T: Scalar, const W: usize> EdgeKernel<'v, T, W> {
     #[inline(always)]
     fn mix(&self, ends: [&Value<T, W>; 2], sides: [&Value<T, W>; 2]) -> Value<T, W> {
         std::array::from_fn(|lane| {
-            (ends[0][lane] + ends[1][lane]) * self.end
-                + (sides[0][lane] + sides[1][lane]) * self.beside
+            mix_edge(self.weights, ends.map(|it| it[lane]), sides.map(|it| it[lane]))
         })
     }
 
     fn midpoint(&self, corner: u32) -> Value<T, W> {
         let (a, b) = (self.at(corner), self.at(self.mesh.next(corner)));
-        std::array::from_fn(|lane| (a[lane] + b[lane]) * self.end)
+        std::array::from_fn(|lane| (a[lane] + b[lane]) * self.weights[0])
     }
 
     /// In a mesh of quads only.
@@ -189,7 +228,7 @@ impl<'v, T: Scalar, const W: usize> VertexKernel<'v, T, W> {
         let quads = layout.side() == 4 && layout.irregular_corners() == 0;
         match self.pieces {
             Pieces::Quads if quads => self.each(first, out, except, Self::in_quads),
-            Pieces::Quads => self.each(first, out, except, |_, _, _| None),
+            Pieces::Quads => self.each(first, out, except, |_, _, _, _| None),
             Pieces::Triangles => self.each(first, out, except, Self::in_triangles),
         }
     }
@@ -200,7 +239,7 @@ impl<'v, T: Scalar, const W: usize> VertexKernel<'v, T, W> {
         first: u32,
         out: &mut [Value<T, W>],
         except: &VertexSet,
-        regular: impl Fn(&Self, u32, u32) -> Option<Ring<T, W>>,
+        regular: impl Fn(&Self, u32, u32, &Value<T, W>) -> Option<Value<T, W>>,
     ) {
         let starts = &self.mesh.start[first as usize..];
         let values = &self.values[first as usize..];
@@ -212,8 +251,8 @@ impl<'v, T: Scalar, const W: usize> VertexKernel<'v, T, W> {
                 *slot = *own;
                 continue;
             }
-            *slot = match regular(self, v, start) {
-                Some(ring) => ring.mix(own, self.regular),
+            *slot = match regular(self, v, start, own) {
+                Some(value) => value,
                 None => self.any(own, start),
             };
         }
@@ -223,16 +262,17 @@ impl<'v, T: Scalar, const W: usize> VertexKernel<'v, T, W> {
     #[cold]
     #[inline(never)]
     fn any(&mut self, own: &Value<T, W>, start: u32) -> Value<T, W> {
-        let mut ring = Ring::default();
+        let (mut near, mut faces) = ([T::default(); W], [T::default(); W]);
         let mut valence = 0;
         for corner in self.mesh.fan_from(start) {
-            ring.add_near(self.at(self.mesh.next(corner)));
+            add(&mut near, self.at(self.mesh.next(corner)));
             if self.pieces == Pieces::Quads {
-                ring.add_face(&self.faces[self.mesh.layout.face_of(corner) as usize]);
+                add(&mut faces, &self.faces[self.mesh.layout.face_of(corner) as usize]);
             }
             valence += 1;
         }
-        ring.mix(own, weights(&self.masks.vertex(valence)))
+        let weights = weights(&self.masks.vertex(valence));
+        std::array::from_fn(|lane| mix_vertex(weights, own[lane], near[lane], faces[lane]))
     }
 
     #[inline(always)]
@@ -242,7 +282,7 @@ impl<'v, T: Scalar, const W: usize> VertexKernel<'v, T, W> {
 
     /// A vertex of valence 4 in a mesh of quads only.
     #[inline(always)]
-    fn in_quads(&self, vertex: u32, start: u32) -> Option<Ring<T, W>> {
+    fn in_quads(&self, vertex: u32, start: u32, own: &Value<T, W>) -> Option<Value<T, W>> {
         if self.mesh.special_set.contains(vertex) {
             return None;
         }
@@ -251,17 +291,19 @@ impl<'v, T: Scalar, const W: usize> VertexKernel<'v, T, W> {
         let clockwise = turn(twin(start), 1);
         let around = twin(turn(start, 3));
         let across = twin(turn(around, 3));
-        let mut ring = Ring::default();
-        for corner in [start, around, across, clockwise] {
-            ring.add_near(self.at(turn(corner, 1)));
-            ring.add_face(&self.faces[(corner / 4) as usize]);
-        }
-        Some(ring)
+        let corners = [start, around, across, clockwise];
+        let near = corners.map(|corner| self.at(turn(corner, 1)));
+        let faces = corners.map(|corner| &self.faces[(corner / 4) as usize]);
+        Some(std::array::from_fn(|lane| {
+            let near = regular_sum(near.map(|value| value[lane]));
+            let faces = regular_sum(faces.map(|value| value[lane]));
+            mix_vertex(self.regular, own[lane], near, faces)
+        }))
     }
 
     /// A vertex of valence 6 in a mesh of triangles only; faces have no weight.
     #[inline(always)]
-    fn in_triangles(&self, _: u32, start: u32) -> Option<Ring<T, W>> {
+    fn in_triangles(&self, _: u32, start: u32, own: &Value<T, W>) -> Option<Value<T, W>> {
         let twin = |corner: u32| self.mesh.twin[corner as usize];
         let ccw = |corner: u32| twin(prev_in_triangle(corner));
         let cw = |corner: u32| next_in_triangle(twin(corner));
@@ -272,47 +314,21 @@ impl<'v, T: Scalar, const W: usize> VertexKernel<'v, T, W> {
         if ccw(across) != far_right || far_left == start || across == start {
             return None;
         }
-        let mut ring = Ring::default();
-        for corner in [start, left, far_left, across, far_right, right] {
-            ring.add_near(self.at(next_in_triangle(corner)));
-        }
-        Some(ring)
+        let corners = [start, left, far_left, across, far_right, right];
+        let near = corners.map(|corner| self.at(next_in_triangle(corner)));
+        Some(std::array::from_fn(|lane| {
+            let near = regular_sum(near.map(|value| value[lane]));
+            mix_vertex(self.regular, own[lane], near, T::default())
+        }))
     }
 }
 
-fn weights<T: Scalar>(mask: &VertexMask<f64>) -> [T; 3] {
+pub(super) fn weights<T: Scalar>(mask: &VertexMask<f64>) -> [T; 3] {
     [mask.own, mask.near, mask.face].map(T::from_f64)
 }
 
-/// Sums over the neighbours and the faces of a vertex.
-struct Ring<T, const W: usize> {
-    near: Value<T, W>,
-    faces: Value<T, W>,
-}
-
-impl<T: Scalar, const W: usize> Default for Ring<T, W> {
-    fn default() -> Self {
-        Self { near: [T::default(); W], faces: [T::default(); W] }
-    }
-}
-
-impl<T: Scalar, const W: usize> Ring<T, W> {
-    #[inline(always)]
-    fn add_near(&mut self, value: &Value<T, W>) {
-        for (sum, &x) in self.near.iter_mut().zip(value) {
-            *sum = *sum + x;
-        }
-    }
-
-    #[inline(always)]
-    fn add_face(&mut self, value: &Value<T, W>) {
-        for (sum, &x) in self.faces.iter_mut().zip(value) {
-            *sum = *sum + x;
-        }
-    }
-
-    #[inline(always)]
-    fn mix(&self, own: &Value<T, W>, [w, u, f]: [T; 3]) -> Value<T, W> {
-        std::array::from_fn(|lane| own[lane] * w + self.near[lane] * u + self.faces[lane] * f)
+fn add<T: Scalar, const W: usize>(sum: &mut Value<T, W>, value: &Value<T, W>) {
+    for (sum, &x) in sum.iter_mut().zip(value) {
+        *sum = *sum + x;
     }
 }

@@ -6,6 +6,7 @@
 
 use super::channels::{ChannelOutput, ChannelRun, FaceVarying, RefinedChannel};
 use super::columns::{Column, Place};
+use super::patch_step::PatchStep;
 use super::predict::Prediction;
 use super::step::{Interpolation, Step};
 use super::values::{check, check_length, check_overflow, lanes};
@@ -13,8 +14,8 @@ use crate::base::memory::{resize, zeroed};
 use crate::base::{Context, Error, ErrorKind, Result, Scalar};
 use crate::mesh::Mesh;
 use crate::refine::adjacency::Recycled;
-use crate::refine::{Counts, EdgeNumbers, Split};
-use crate::scheme::Scheme;
+use crate::refine::{Counts, EdgeNumbers, Patches, Split};
+use crate::scheme::{Scheme, SmoothMasks};
 
 /// Values on vertices, any number of them per vertex.
 #[derive(Debug, Clone, Copy)]
@@ -394,8 +395,14 @@ impl<T: Scalar> Run<'_, T> {
         let mut channels = channels.collect::<Result<Vec<_>>>()?;
         let mut owned: Option<Mesh> = None;
         let last = self.task.levels as usize - 1;
+        let depth = self.plan.patch_depth() as usize;
+        let mut at_once = None;
         for level in 0..last {
             let parent = owned.as_ref().unwrap_or(self.task.mesh);
+            if level + depth > last && self.in_patches(parent) {
+                at_once = Some(level);
+                break;
+            }
             let split = self.task.scheme.plan(self.context, parent, &mut refiner.edges)?;
             let steps = self.steps(&split)?;
             for (column, &place) in refiner.columns.iter_mut().zip(&places) {
@@ -418,11 +425,63 @@ impl<T: Scalar> Run<'_, T> {
             self.progress(level + 1, 0.0)?;
         }
         let parent = owned.as_ref().unwrap_or(self.task.mesh);
-        self.last_level(refiner, parent, &places, &mut channels, output)?;
+        if let Some(level) = at_once {
+            self.patches(refiner, parent, &places, level, output)?;
+        } else {
+            self.last_level(refiner, parent, &places, &mut channels, output)?;
+        }
         if let Some(mesh) = owned {
-            refiner.levels[last - 1].absorb(mesh);
+            refiner.levels[at_once.unwrap_or(last) - 1].absorb(mesh);
         }
         self.progress(last + 1, 0.0)
+    }
+
+    /// True if the levels that are left can be had in one step.
+    fn in_patches(&self, parent: &Mesh) -> bool {
+        !self.watch
+            && self.task.channels.is_empty()
+            && Patches::fit(parent, self.task.scheme.pieces())
+    }
+
+    /// All levels from one on in one step, straight into the output.
+    fn patches(
+        &self,
+        refiner: &mut Refiner<T>,
+        parent: &Mesh,
+        places: &[Place],
+        level: usize,
+        mut output: Output<T>,
+    ) -> Result<()> {
+        let depth = self.task.levels - level as u32;
+        let patches = Patches::new(parent, self.task.scheme.pieces(), depth)?;
+        if let Some(sizes) = &mut output.face_sizes {
+            patches.write_sizes(sizes);
+        }
+        if let Some(vertices) = output.face_vertices.take() {
+            patches.write_faces(self.context, vertices)?;
+        }
+        if let Some(sources) = output.face_sources.take() {
+            let kept = refiner.face_sources.get(level).filter(|_| level > 0);
+            patches.each_face_source(|child, face| {
+                sources[child] = kept.map_or(face, |kept| kept[face as usize]);
+            });
+        }
+        let masks = |interpolation| match interpolation {
+            Interpolation::Varying => SmoothMasks::linear(),
+            Interpolation::Vertex => SmoothMasks::new(self.task.scheme),
+        };
+        let step = |interpolation| Step::patches(PatchStep::new(&patches, masks(interpolation)));
+        let parts = places.len() as f64 + 1.0;
+        for (done, (column, &place)) in refiner.columns.iter_mut().zip(places).enumerate() {
+            self.progress(level, (done as f64 + 1.0) / parts)?;
+            let out = match place.attribute.checked_sub(1) {
+                None => &mut *output.positions,
+                Some(i) => &mut *output.attributes[i],
+            };
+            let step = step(self.interpolation(place));
+            column.finish(self.context, &step, level, place, self.input(place), out)?;
+        }
+        Ok(())
     }
 
     /// Faces and values only, straight into the output.

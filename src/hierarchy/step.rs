@@ -2,6 +2,7 @@
 
 use super::dual_step::DualStep;
 use super::kernel::Value;
+use super::patch_step::PatchStep;
 use super::primal_step::PrimalStep;
 use crate::base::{Context, Error, ErrorKind, Result, Scalar};
 use crate::refine::Split;
@@ -39,6 +40,7 @@ pub(super) struct Step<'a> {
 enum Kind<'a> {
     Dual(DualStep<'a>),
     Primal(PrimalStep<'a>),
+    Patches(PatchStep<'a>),
 }
 
 impl<'a> Step<'a> {
@@ -53,6 +55,11 @@ impl<'a> Step<'a> {
             Split::Primal(split) => Kind::Primal(PrimalStep::new(scheme, split, interpolation)?),
         };
         Ok(Self { children: split.counts().vertices as usize, kind })
+    }
+
+    /// Several primal steps at once.
+    pub(super) fn patches(step: PatchStep<'a>) -> Self {
+        Self { children: step.children(), kind: Kind::Patches(step) }
     }
 
     /// The step of face-varying values.
@@ -78,6 +85,7 @@ impl<'a> Step<'a> {
         match &self.kind {
             Kind::Dual(step) => step.apply(context, values, out, scratch),
             Kind::Primal(step) => step.apply(context, values, out, scratch),
+            Kind::Patches(step) => step.apply(context, values, out, scratch),
         }
     }
 }
@@ -89,18 +97,22 @@ pub(super) struct Scratch<T, const W: usize> {
     pub(super) irregular: Vec<Value<T, W>>,
     /// The stage before the last, where there are several.
     pub(super) stage: Vec<Value<T, W>>,
+    /// What the corners of patches become.
+    pub(super) corners: Vec<Value<T, W>>,
 }
 
 impl<T, const W: usize> Default for Scratch<T, W> {
     fn default() -> Self {
-        Self { irregular: Vec::new(), stage: Vec::new() }
+        Self { irregular: Vec::new(), stage: Vec::new(), corners: Vec::new() }
     }
 }
 
 impl<T, const W: usize> Scratch<T, W> {
     /// Bytes held.
     pub(super) fn bytes(&self) -> u64 {
-        ((self.irregular.capacity() + self.stage.capacity()) * size_of::<Value<T, W>>()) as u64
+        let lists = [&self.irregular, &self.stage, &self.corners];
+        let values: usize = lists.iter().map(|list| list.capacity()).sum();
+        (values * size_of::<Value<T, W>>()) as u64
     }
 }
 

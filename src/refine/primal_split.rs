@@ -40,6 +40,15 @@ impl Pieces {
         }
     }
 
+    /// The faces around a regular vertex.
+    #[inline(always)]
+    pub(crate) fn valence(self) -> usize {
+        match self {
+            Self::Quads => 4,
+            Self::Triangles => 6,
+        }
+    }
+
     /// The child corner from the old vertex of a corner to the middle of its edge.
     #[inline(always)]
     pub(crate) fn start_half(self, corner: u32) -> u32 {
@@ -55,6 +64,18 @@ impl Pieces {
     pub(crate) fn end_half(self, next: u32) -> u32 {
         self.start_half(next) + self.sides() - 1
     }
+}
+
+/// The children of a quad from its vertices, those on its edges and that in its middle.
+#[inline(always)]
+pub(super) fn family_of_quad(v: [u32; 4], e: [u32; 4], m: u32) -> [[u32; 4]; 4] {
+    [[v[0], e[0], m, e[3]], [v[1], e[1], m, e[0]], [v[2], e[2], m, e[1]], [v[3], e[3], m, e[2]]]
+}
+
+/// The children of a triangle from its vertices and those on its edges.
+#[inline(always)]
+pub(super) fn family_of_triangle(v: [u32; 3], e: [u32; 3]) -> [[u32; 3]; 4] {
+    [[v[0], e[0], e[2]], [v[1], e[1], e[0]], [v[2], e[2], e[1]], [e[2], e[0], e[1]]]
 }
 
 /// A child vertex by what it comes from.
@@ -188,13 +209,7 @@ impl<'a> PrimalSplit<'a> {
             let parents = verts[start..].iter().zip(&edges[start..]);
             let faces = (start as u32..).zip(parents);
             for ((face, (v, e)), out) in faces.zip(part.as_chunks_mut::<4>().0) {
-                let (m, e) = (in_face + face, e.map(|e| on_edge + e));
-                *out = [
-                    [v[0], e[0], m, e[3]],
-                    [v[1], e[1], m, e[0]],
-                    [v[2], e[2], m, e[1]],
-                    [v[3], e[3], m, e[2]],
-                ];
+                *out = family_of_quad(*v, e.map(|e| on_edge + e), in_face + face);
             }
         })
     }
@@ -203,11 +218,11 @@ impl<'a> PrimalSplit<'a> {
         let verts = self.parent.vert.as_chunks::<3>().0;
         let edges = self.edges.of_corner.as_chunks::<3>().0;
         let on_edge = self.first_edge_vertex();
-        context.fill(out, 12, |start, part| {
+        let out = out.as_chunks_mut::<3>().0;
+        context.fill(out, 4, |start, part| {
             let parents = verts[start..].iter().zip(&edges[start..]);
-            for ((v, e), out) in parents.zip(part.as_chunks_mut::<12>().0) {
-                let e = e.map(|e| on_edge + e);
-                *out = [v[0], e[0], e[2], v[1], e[1], e[0], v[2], e[2], e[1], e[2], e[0], e[1]];
+            for ((v, e), out) in parents.zip(part.as_chunks_mut::<4>().0) {
+                *out = family_of_triangle(*v, e.map(|e| on_edge + e));
             }
         })
     }

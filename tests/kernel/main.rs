@@ -8,6 +8,7 @@ mod layers;
 mod limits;
 mod mesh;
 mod oracle;
+mod patches;
 mod properties;
 mod support;
 mod topology;

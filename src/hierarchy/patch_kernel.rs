@@ -1,0 +1,292 @@
+//! The inner loops of patches: one face, refined a few times in its own small arrays.
+//!
+//! The array of a level holds the patch and a ring of one more cell. Everything in it is
+//! refined as if it were regular; what that makes wrong beside an extraordinary corner, three
+//! places, is written again from [`FanValues`]. The rules are those of `primal_kernel`,
+//! which add in an order that does not depend on where one starts, so that both
+//! give the same bits.
+
+use super::kernel::{Value, narrow, widen};
+use super::patch_fan_values::FanValues;
+use super::primal_kernel::{face_mean, mix_edge, mix_vertex, regular_sum, weights};
+use crate::base::{Result, Scalar};
+use crate::refine::{PatchArray, PatchGrid, Patches, Pieces, patch_array, within};
+use crate::scheme::SmoothMasks;
+
+/// The weights of the regular rules.
+#[derive(Clone, Copy)]
+struct Rules<T> {
+    edge: [T; 2],
+    vertex: [T; 3],
+}
+
+/// Refines patches, one after the other.
+pub(super) struct PatchKernel<'v, T: Scalar, const W: usize> {
+    patches: &'v Patches<'v>,
+    values: &'v [Value<T, W>],
+    fans: &'v FanValues<T>,
+    rules: Rules<T>,
+    linear: bool,
+    /// The arrays of this level and of the next.
+    from: PatchArray<T::Lanes>,
+    to: PatchArray<T::Lanes>,
+}
+
+impl<'v, T: Scalar, const W: usize> PatchKernel<'v, T, W> {
+    pub(super) fn new(
+        patches: &'v Patches<'v>,
+        masks: &SmoothMasks<f64>,
+        values: &'v [Value<T, W>],
+        fans: &'v FanValues<T>,
+    ) -> Result<Self> {
+        let mut masks = masks.clone();
+        let regular = match patches.pieces() {
+            Pieces::Quads => 4,
+            Pieces::Triangles => 6,
+        };
+        let edge = masks.edge(0);
+        let rules = Rules {
+            edge: [edge.end, edge.beside].map(T::from_f64),
+            vertex: weights(&masks.vertex(regular)),
+        };
+        let zero = T::lanes([T::default(); 4]);
+        let (from, to) = (patch_array(zero)?, patch_array(zero)?);
+        Ok(Self { patches, values, fans, rules, linear: masks.is_linear(), from, to })
+    }
+
+    /// Writes what a patch leads, from the front of each run, and its corners.
+    pub(super) fn run(
+        &mut self,
+        patch: usize,
+        corners: &mut [Value<T, W>],
+        runs: &mut [&mut [Value<T, W>]],
+    ) {
+        let depth = self.patches.depth();
+        self.gather(patch);
+        for level in 0..depth {
+            self.refine(1 << level, level + 1 < depth);
+            std::mem::swap(&mut self.from, &mut self.to);
+            self.mend(patch, level);
+        }
+        let (grid, order) = (self.patches.tables().grid, self.patches.order(patch));
+        for (i, slot) in corners.iter_mut().enumerate() {
+            *slot = narrow::<T, W>(self.from[grid.index(grid.corner(i))]);
+        }
+        for (level, runs) in runs.chunks_exact_mut(2).enumerate() {
+            for (run, indices) in
+                runs.iter_mut().zip([order.on_edges(level), order.in_faces(level)])
+            {
+                let (mine, later) = std::mem::take(run).split_at_mut(indices.len());
+                for (slot, &index) in mine.iter_mut().zip(indices) {
+                    *slot = narrow::<T, W>(self.from[within(index)]);
+                }
+                *run = later;
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn at(&self, corner: u32) -> T::Lanes {
+        let vertex = self.patches.parent().vert[corner as usize];
+        widen::<T, W>(&self.values[vertex as usize])
+    }
+
+    /// The patch of level 0 and what is around it.
+    fn gather(&mut self, patch: usize) {
+        let (mesh, pieces) = (self.patches.parent(), self.patches.pieces());
+        let grid = PatchGrid::new(pieces, 0);
+        for i in 0..grid.sides() {
+            let corner = (patch * grid.sides() + i) as u32;
+            self.from[grid.index(grid.corner(i))] = self.at(corner);
+            if self.linear {
+                continue;
+            }
+            let end = |kernel: &Self, corner: u32| kernel.at(mesh.next(corner));
+            let before = mesh.cw(corner);
+            self.from[grid.index(grid.beside(i, pieces.valence() - 1))] = end(self, before);
+            let second = mesh.ccw(mesh.ccw(corner));
+            self.from[grid.index(grid.beside(i, 2))] = end(self, second);
+            if self.patches.fans.contains(mesh.vert[corner as usize]) {
+                continue;
+            }
+            match pieces {
+                Pieces::Quads => {
+                    self.from[grid.index(grid.across(i))] = self.at(mesh.next(mesh.next(second)));
+                }
+                Pieces::Triangles => {
+                    let third = mesh.ccw(second);
+                    self.from[grid.index(grid.beside(i, 3))] = end(self, third);
+                    self.from[grid.index(grid.beside(i, 4))] = end(self, mesh.ccw(third));
+                }
+            }
+        }
+    }
+
+    /// One step of the whole array; of its ring only if it is needed.
+    fn refine(&mut self, cells: usize, ring: bool) {
+        // With the size known, no index needs a check.
+        match cells {
+            1 => self.refine_cells::<1>(ring),
+            2 => self.refine_cells::<2>(ring),
+            4 => self.refine_cells::<4>(ring),
+            8 => self.refine_cells::<8>(ring),
+            _ => self.refine_cells::<16>(ring),
+        }
+    }
+
+    fn refine_cells<const N: usize>(&mut self, ring: bool) {
+        let (from, to) = (&self.from[..], &mut self.to[..]);
+        match (self.patches.pieces(), self.linear) {
+            (Pieces::Quads, false) if ring => refine_quads::<T, N, true>(self.rules, from, to),
+            (Pieces::Quads, false) => refine_quads::<T, N, false>(self.rules, from, to),
+            (Pieces::Quads, true) => bisect_quads::<T, N>(self.rules, from, to),
+            (Pieces::Triangles, _) if ring => refine_triangles::<T, N, true>(self.rules, from, to),
+            (Pieces::Triangles, _) => refine_triangles::<T, N, false>(self.rules, from, to),
+        }
+    }
+
+    /// The extraordinary corners and their neighbours that the patch does not contain.
+    fn mend(&mut self, patch: usize, level: u32) {
+        let (patches, pieces) = (self.patches, self.patches.pieces());
+        let grid = PatchGrid::new(pieces, level + 1);
+        for i in 0..grid.sides() {
+            let corner = (patch * grid.sides() + i) as u32;
+            let vertex = patches.parent().vert[corner as usize];
+            if self.linear || !patches.fans.contains(vertex) {
+                continue;
+            }
+            let Some(slot) = patches.fans.slot(corner) else { continue };
+            let (fans, level) = (&patches.fans, level as usize);
+            self.from[grid.index(grid.corner(i))] = self.fans.own(level, fans.owner(slot));
+            let second = self.fans.near(level, fans.turn(slot, 2));
+            self.from[grid.index(grid.beside(i, 2))] = second;
+            let before = self.fans.near(level, fans.back(slot));
+            self.from[grid.index(grid.beside(i, pieces.valence() - 1))] = before;
+        }
+    }
+}
+
+/// A row of an array with `N` cells along a side.
+#[inline(always)]
+fn row<L>(array: &[L], y: usize, wide: usize) -> &[L] {
+    &array[y * wide..(y + 1) * wide]
+}
+
+/// One step of Catmull–Clark on an array of N by N cells and its ring. Faces come first: new
+/// places with two even indices; then edges and old vertices, row by row.
+#[inline(never)]
+fn refine_quads<T: Scalar, const N: usize, const RING: bool>(
+    rules: Rules<T>,
+    from: &[T::Lanes],
+    to: &mut [T::Lanes],
+) {
+    let (wide, new) = (N + 3, 2 * N + 3);
+    let (from, to) = (&from[..wide * wide], &mut to[..new * new]);
+    let skip = if RING { 0 } else { 1 };
+    for y in 0..N + 2 {
+        let (low, high) = (row(from, y, wide), row(from, y + 1, wide));
+        let out = &mut to[2 * y * new..(2 * y + 1) * new];
+        for x in 0..N + 2 {
+            out[2 * x] = face_mean::<T, _>([low[x], low[x + 1], high[x + 1], high[x]]);
+        }
+    }
+    for y in 1..N + 2 {
+        let (below, own) = (row(from, y - 1, wide), row(from, y, wide));
+        let above = row(from, y + 1, wide);
+        let rows = &mut to[2 * (y - 1) * new..(2 * y + 1) * new];
+        let (done, rest) = rows.split_at_mut(new);
+        let (out, next) = rest.split_at_mut(new);
+        for x in skip..N + 2 - skip {
+            let sides = [done[2 * x], next[2 * x]];
+            out[2 * x] = mix_edge(rules.edge, [own[x], own[x + 1]], sides);
+        }
+        for x in 1..N + 2 {
+            let near = regular_sum([own[x - 1], below[x], own[x + 1], above[x]]);
+            let (left, right) = (2 * x - 2, 2 * x);
+            let faces = regular_sum([done[left], done[right], next[right], next[left]]);
+            out[2 * x - 1] = mix_vertex(rules.vertex, own[x], near, faces);
+        }
+    }
+    for y in skip..N + 2 - skip {
+        let (low, high) = (row(from, y, wide), row(from, y + 1, wide));
+        let out = &mut to[2 * y * new..(2 * y + 1) * new];
+        for x in 1..N + 2 {
+            let sides = [out[2 * x - 2], out[2 * x]];
+            out[2 * x - 1] = mix_edge(rules.edge, [low[x], high[x]], sides);
+        }
+    }
+}
+
+/// One linear step; the ring is left alone.
+#[inline(never)]
+fn bisect_quads<T: Scalar, const N: usize>(
+    rules: Rules<T>,
+    from: &[T::Lanes],
+    to: &mut [T::Lanes],
+) {
+    let (wide, new) = (N + 3, 2 * N + 3);
+    let (from, to) = (&from[..wide * wide], &mut to[..new * new]);
+    let half = rules.edge[0];
+    for y in 1..N + 2 {
+        let own = row(from, y, wide);
+        let out = &mut to[(2 * y - 1) * new..2 * y * new];
+        for x in 1..N + 2 {
+            out[2 * x - 1] = own[x];
+        }
+        for x in 1..N + 1 {
+            out[2 * x] = (own[x] + own[x + 1]) * half;
+        }
+    }
+    for y in 1..N + 1 {
+        let (low, high) = (row(from, y, wide), row(from, y + 1, wide));
+        let out = &mut to[2 * y * new..(2 * y + 1) * new];
+        for x in 1..N + 2 {
+            out[2 * x - 1] = (low[x] + high[x]) * half;
+        }
+        for x in 1..N + 1 {
+            out[2 * x] = face_mean::<T, _>([low[x], low[x + 1], high[x + 1], high[x]]);
+        }
+    }
+}
+
+/// One step of Loop on half an array of N by N cells and its ring. Index 1 is the first
+/// place that is not in the ring, x + y ≤ N + 2 is inside.
+#[inline(never)]
+fn refine_triangles<T: Scalar, const N: usize, const RING: bool>(
+    rules: Rules<T>,
+    from: &[T::Lanes],
+    to: &mut [T::Lanes],
+) {
+    let (wide, new) = (N + 3, 2 * N + 3);
+    let (from, to) = (&from[..wide * wide], &mut to[..new * new]);
+    let skip = if RING { 0 } else { 1 };
+    let zero = T::lanes([T::default(); 4]);
+    for y in 1..N + 2 {
+        let (below, own) = (row(from, y - 1, wide), row(from, y, wide));
+        let above = row(from, y + 1, wide);
+        let out = &mut to[(2 * y - 1) * new..2 * y * new];
+        for x in 1..=N + 2 - y {
+            let ends = [own[x + 1], above[x], above[x - 1], own[x - 1], below[x], below[x + 1]];
+            let near = regular_sum(ends);
+            out[2 * x - 1] = mix_vertex(rules.vertex, own[x], near, zero);
+        }
+        for x in skip..=N + 2 - y - skip {
+            let sides = [above[x], below[x + 1]];
+            out[2 * x] = mix_edge(rules.edge, [own[x], own[x + 1]], sides);
+        }
+    }
+    for y in skip..N + 2 - skip {
+        let (low, high) = (row(from, y, wide), row(from, y + 1, wide));
+        let out = &mut to[2 * y * new..(2 * y + 1) * new];
+        // The ring below the patch is one place shorter than a row of the patch would be.
+        for x in 1..=N + 2 - y.max(1) {
+            let sides = [high[x - 1], low[x + 1]];
+            out[2 * x - 1] = mix_edge(rules.edge, [low[x], high[x]], sides);
+        }
+        let first = if y == 0 { 1 } else { skip };
+        for x in first..N + 2 - y {
+            let sides = [low[x], high[x + 1]];
+            out[2 * x] = mix_edge(rules.edge, [low[x + 1], high[x]], sides);
+        }
+    }
+}

@@ -1,0 +1,149 @@
+//! Several levels in one step, patch by patch, against one level after the other: the
+//! same faces under the same numbers and the same bits everywhere.
+
+use carvel::base::Scalar;
+use carvel::{Attribute, Context, Hierarchy, Refined, Refiner, Scheme, Task};
+use proptest::prelude::*;
+
+use crate::support::bases;
+use crate::support::cases::config;
+use crate::support::generate::{Kind, meshes};
+use crate::support::kernel::{self, bits};
+use crate::support::poly::Poly;
+use crate::support::rng::Rng;
+
+/// Every face a fan of triangles around a new vertex.
+fn poked(mesh: &Poly<f64>) -> Poly<f64> {
+    let mut it = Poly::new(mesh.positions.clone(), Vec::new());
+    for face in &mesh.faces {
+        let centre = it.positions.len();
+        let sum = |k: usize| face.iter().map(|&v| mesh.positions[v][k]).sum::<f64>();
+        it.positions.push([0, 1, 2].map(|k| sum(k) / face.len() as f64 + 0.1));
+        let next = face.iter().cycle().skip(1);
+        it.faces.extend(face.iter().zip(next).map(|(&a, &b)| vec![a, b, centre]));
+    }
+    it
+}
+
+fn values<T: Scalar>(n: usize) -> Vec<T> {
+    let mut rng = Rng::new(n as u64);
+    (0..n).map(|_| T::from_f64(rng.signed())).collect()
+}
+
+/// The fewest levels that leave a few for patches.
+fn levels(faces: usize) -> u32 {
+    (0..).find(|&level| faces << (2 * level) >= 256).expect("a mesh with faces") + 2
+}
+
+fn refined<T: Scalar>(
+    context: &Context,
+    hierarchy: &Hierarchy,
+    (positions, wide): (&[T], &[T]),
+) -> Refined<T> {
+    let attributes =
+        &[Attribute::vertex(wide, 5), Attribute::varying(&wide[..positions.len() / 3], 1)];
+    let task = Task {
+        mesh: hierarchy.mesh(0),
+        scheme: hierarchy.scheme(),
+        levels: hierarchy.last_level(),
+        positions,
+        attributes,
+        channels: &[],
+        face_sources: true,
+    };
+    Refiner::new().refine(context, &task).expect("a small refinement")
+}
+
+/// Refines at once and level by level; the first difference is a failure.
+fn check<T: Scalar>(control: &Poly<f64>, scheme: &Scheme, levels: u32) {
+    let mesh = kernel::mesh(control);
+    let serial = Context::serial();
+    let hierarchy = Hierarchy::new(&serial, mesh, scheme.clone(), levels).unwrap();
+    let (positions, wide) =
+        (kernel::coordinates::<T>(control), values(5 * control.positions.len()));
+    let whole = refined(&serial, &hierarchy, (&positions, &wide));
+    let last = hierarchy.mesh(levels);
+    assert_eq!(whole.face_vertices, last.corner_vertices());
+    assert!(whole.face_sizes.iter().copied().eq(last.face_sizes()));
+    assert_eq!(
+        bits(&whole.positions),
+        bits(&kernel::refine_values(&hierarchy, levels, &positions, 3))
+    );
+    let expected = kernel::refine_values(&hierarchy, levels, &wide, 5);
+    assert_eq!(bits(&whole.attributes[0]), bits(&expected));
+    let n = control.positions.len();
+    let mut linear = vec![T::default(); last.vertices()];
+    let varying = carvel::Interpolation::Varying;
+    hierarchy.interpolate(&serial, levels, varying, &wide[..n], 1, &mut linear).unwrap();
+    assert_eq!(bits(&whole.attributes[1]), bits(&linear));
+    let mut sources: Vec<u32> = (0..hierarchy.mesh(0).faces() as u32).collect();
+    for level in 1..=levels {
+        let origins = hierarchy.face_origins(level).unwrap();
+        let parent = hierarchy.mesh(level - 1);
+        sources = origins.iter().map(|o| sources[o.representative(parent) as usize]).collect();
+    }
+    assert_eq!(whole.face_sources, sources);
+    let threads = Context::builder().threads(3).chunk(1).build().unwrap();
+    assert_eq!(refined(&threads, &hierarchy, (&positions, &wide)), whole);
+}
+
+fn quad_schemes() -> [Scheme; 2] {
+    [Scheme::catmull_clark(), Scheme::bilinear()]
+}
+
+#[test]
+fn quads_of_all_valences() {
+    for control in [bases::torus(16, 16), bases::torus(3, 100), bases::cube(), bases::tetrahedron()]
+    {
+        for scheme in quad_schemes() {
+            let levels = levels(control.faces.len());
+            check::<f32>(&control, &scheme, levels);
+            check::<f64>(&control, &scheme, levels + 1);
+        }
+    }
+}
+
+#[test]
+fn hubs_and_pillows() {
+    for control in [
+        bases::bipyramid(40),
+        bases::bipyramid(3),
+        bases::prism(31),
+        bases::pillow(3),
+        bases::pillow(5),
+    ] {
+        check::<f32>(&control, &Scheme::catmull_clark(), levels(control.faces.len()));
+    }
+}
+
+#[test]
+fn triangles_of_all_valences() {
+    for control in [
+        bases::octahedron(),
+        bases::tetrahedron(),
+        bases::bipyramid(40),
+        poked(&bases::torus(5, 9)),
+    ] {
+        let levels = levels(control.faces.len());
+        check::<f32>(&control, &Scheme::loop_triangles(), levels);
+        check::<f64>(&control, &Scheme::loop_triangles(), levels + 1);
+    }
+}
+
+#[test]
+fn patches_as_deep_as_they_get() {
+    check::<f32>(&bases::torus(16, 16), &Scheme::catmull_clark(), 5);
+    check::<f32>(&poked(&bases::torus(8, 8)), &Scheme::loop_triangles(), 5);
+}
+
+proptest! {
+    #![proptest_config(config(24))]
+
+    #[test]
+    fn random_closed_meshes(control in meshes(Kind::Closed)) {
+        let levels = levels(control.faces.len());
+        check::<f32>(&control, &Scheme::catmull_clark(), levels);
+        check::<f64>(&control, &Scheme::catmull_clark(), levels);
+        check::<f32>(&poked(&control), &Scheme::loop_triangles(), levels);
+    }
+}
