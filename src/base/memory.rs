@@ -1,14 +1,16 @@
 //! Allocation that answers instead of aborting, for every array that grows with
 //! the mesh.
 
-use super::pages::prefer_huge;
+use super::pages::{prefer_huge, roomy};
 use super::{Error, ErrorKind, Result};
 use bytemuck::Zeroable;
 
 /// An array of zeros. Large ones are untouched pages straight from the system.
 pub(crate) fn zeroed<T: Zeroable>(len: usize) -> Result<Vec<T>> {
-    let mut list = bytemuck::allocation::try_zeroed_vec(len).map_err(|()| refused::<T>(len))?;
+    let room = roomy::<T>(len);
+    let mut list = bytemuck::allocation::try_zeroed_vec(room).map_err(|()| refused::<T>(len))?;
     prefer_huge(&mut list);
+    list.truncate(len);
     Ok(list)
 }
 
@@ -22,7 +24,7 @@ pub(crate) fn filled<T: Copy>(value: T, len: usize) -> Result<Vec<T>> {
 /// An empty array with room for `len` values.
 pub(crate) fn reserved<T>(len: usize) -> Result<Vec<T>> {
     let mut list = Vec::new();
-    list.try_reserve_exact(len).map_err(|_| refused::<T>(len))?;
+    list.try_reserve_exact(roomy::<T>(len)).map_err(|_| refused::<T>(len))?;
     prefer_huge(&mut list);
     Ok(list)
 }

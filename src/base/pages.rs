@@ -5,9 +5,30 @@
 
 #![allow(unsafe_code)]
 
+/// The size of a huge page on most machines; where it is another one, nothing is lost but
+/// the advice.
+const HUGE: usize = 2 << 20;
+
+/// Room for what an allocator writes in front of a large array.
+const HEADER: usize = 64;
+
 /// Arrays of fewer bytes stay as they are.
 #[cfg(target_os = "linux")]
 const LARGE: usize = 256 << 10;
+
+/// The length for an array that is to hold `len` values.
+///
+/// Linux puts a mapping of whole huge pages where huge pages begin; others cost small
+/// pages at both ends. So a large array gets whole ones if that adds no more than
+/// half.
+pub(super) fn roomy<T>(len: usize) -> usize {
+    let bytes = len.saturating_mul(size_of::<T>());
+    if bytes < HUGE || bytes > isize::MAX as usize - 2 * HUGE {
+        return len;
+    }
+    let whole = (bytes + HEADER).next_multiple_of(HUGE) - HEADER;
+    if whole - bytes <= bytes / 2 { whole / size_of::<T>() } else { len }
+}
 
 /// Asks for huge pages behind an array that was not touched yet. A system that refuses
 /// says so to nobody: the array is as good as before.
@@ -28,6 +49,22 @@ pub(super) fn prefer_huge<T>(array: &mut Vec<T>) {
     // changes neither their content nor their address, and a wrong range is refused.
     unsafe {
         libc::madvise(start.wrapping_sub(before).cast(), whole, libc::MADV_HUGEPAGE);
+    }
+    let before = start.addr() % HUGE;
+    if before <= HEADER && before + bytes >= HUGE {
+        join_pages(start.wrapping_sub(before));
+    }
+}
+
+/// Makes one page of small ones. The allocator has written in front of the array, so that
+/// the system has begun its first huge page with a small one.
+#[cfg(target_os = "linux")]
+fn join_pages(start: *mut u8) {
+    /// Since Linux 6.1; older ones refuse it.
+    const MADV_COLLAPSE: libc::c_int = 25;
+    // SAFETY: as above; what the pages hold is kept.
+    unsafe {
+        libc::madvise(start.cast(), HUGE, MADV_COLLAPSE);
     }
 }
 

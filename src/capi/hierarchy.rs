@@ -95,6 +95,7 @@ unsafe fn refine_values<T: Precision>(
     if copies > 0 {
         // The refinement itself checks what it needs for values without gaps.
         let plan = Prediction::new(hierarchy.mesh(0), hierarchy.scheme(), level)?;
+        let plan = plan.level_by_level();
         let scratch = plan.refiner_bytes(from.width as u64, T::BYTES, false);
         context.check_memory(scratch.saturating_add(copies))?;
     }

@@ -139,9 +139,10 @@ impl<'a, T: Precision> Job<'a, T> {
         // What no buffer can change comes before the buffers, as the header says.
         let faces = Faces::of(output, &plan);
         let width: usize = inputs.iter().map(|records| records.width).sum();
-        let scratch = plan.refiner_bytes(width as u64, T::BYTES, faces.sources.is_given());
         // SAFETY: the caller's contract.
         let channels = unsafe { input.channels(call, (mesh, scheme), &mut inputs)? };
+        let plan = if channels.is_empty() { plan } else { plan.level_by_level() };
+        let scratch = plan.refiner_bytes(width as u64, T::BYTES, faces.sources.is_given());
         let others = channel_bytes(&channels, &inputs[inputs.len() - channels.len()..]);
         // SAFETY: the caller's contract.
         let lists = unsafe { output.lists(input)? };

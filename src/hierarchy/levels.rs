@@ -133,7 +133,7 @@ impl Hierarchy {
             out.copy_from_slice(values);
             return Ok(());
         }
-        let plan = Prediction::new(self.mesh(0), &self.scheme, level)?;
+        let plan = Prediction::new(self.mesh(0), &self.scheme, level)?.level_by_level();
         context.check_memory(plan.scratch_bytes(width as u64, T::BYTES))?;
         let steps = (lanes(width).count() as u32 * level) as f64;
         let mut memory = EdgeNumbers::default();

@@ -2,7 +2,7 @@
 
 use crate::base::{Error, ErrorKind, Result};
 use crate::mesh::{Channel, Mesh};
-use crate::refine::{Counts, DEEPEST, PrimalSplit};
+use crate::refine::{Counts, DEEPEST, Patches, PrimalSplit};
 use crate::scheme::{Scheme, SplitKind};
 
 /// The largest number of levels, for meshes that do not grow out of bounds
@@ -17,6 +17,8 @@ pub struct Prediction {
     primal: bool,
     /// Sharp edges, sides of joints and faces of holes of the control mesh.
     features: [u64; 2],
+    /// Levels that are done in one step.
+    patches: u32,
 }
 
 impl Prediction {
@@ -52,7 +54,9 @@ impl Prediction {
         let primal = scheme.split() != SplitKind::Corner;
         let edges = mesh.sharpness.edges.len() + mesh.joints.sides.len();
         let features = [edges as u64, mesh.holes.len() as u64];
-        Ok(Self { levels: counts, passes: scheme.passes().len(), primal, features })
+        let patches = patch_depth(mesh, scheme, &counts);
+        let passes = scheme.passes().len();
+        Ok(Self { levels: counts, passes, primal, features, patches })
     }
 
     /// Predicts the values of a face-varying channel: they are what the counts call
@@ -61,25 +65,20 @@ impl Prediction {
     /// # Errors
     /// As [`Prediction::new`].
     pub fn of_channel(channel: &Channel, scheme: &Scheme, levels: u32) -> Result<Self> {
-        let mut plan = Self::new(&channel.mesh, scheme, levels)?;
+        let mut plan = Self::new(&channel.mesh, scheme, levels)?.level_by_level();
         plan.levels[0].vertices = channel.values as u64;
         Ok(plan)
     }
 
-    /// How many of the last levels are worth a single step, patch by patch; 0 if there are
-    /// none.
+    /// How many of the last levels are done in one step, patch by patch; 0 if they are not.
     pub(crate) fn patch_depth(&self) -> u32 {
-        /// Fewer patches do not pay for the tables.
-        const FEWEST: u64 = 256;
-        if !self.primal || self.passes > 0 {
-            return 0;
-        }
-        let levels = self.levels.len() as u32 - 1;
-        let enough = |&depth: &u32| {
-            let counts = self.counts(levels - depth);
-            counts.faces >= FEWEST && counts.irregular_faces == 0
-        };
-        (2..=DEEPEST.min(levels)).rev().find(enough).unwrap_or(0)
+        self.patches
+    }
+
+    /// The same refinement with every level by itself.
+    pub(crate) fn level_by_level(mut self) -> Self {
+        self.patches = 0;
+        self
     }
 
     /// The counts of a level.
@@ -155,12 +154,13 @@ impl Prediction {
         saturate(faces.saturating_add(value_bytes(last.vertices, width, size)))
     }
 
-    /// Bytes that the levels in between need while the last one is written:
-    /// topology, and `width` values of `size` bytes on each of their vertices.
+    /// Bytes that a refiner needs beside its output: topology of the levels in between, and
+    /// `width` values of `size` bytes on each of their vertices; where the last levels of a
+    /// closed mesh are done in one step, those of the levels before it.
     /// Records wider than xyz and four more may pass through a copy of the last
     /// level, which is counted in.
     pub fn scratch_bytes(&self, width: u64, size: u64) -> u64 {
-        let inner = &self.levels[..self.levels.len() - 1];
+        let inner = &self.levels[..self.levels.len() - self.patches.max(1) as usize];
         let topology: u128 = inner.iter().skip(1).map(topology_bytes).sum();
         // Places of child quads, for the levels that get a child mesh.
         let places: u128 = inner.iter().rev().skip(1).map(|c| u128::from(c.corners)).sum();
@@ -175,9 +175,40 @@ impl Prediction {
         let copies = if width > 7 { last } else { 0 };
         let edges = inner.last().map_or(0, |counts| self.edge_bytes(counts));
         let features = self.feature_bytes(inner.len());
-        let parts = [topology, places, values, stages, copies, edges, features];
+        let patches = match inner.last() {
+            Some(parent) if self.patches > 0 => patch_bytes(parent, width, size),
+            _ => 0,
+        };
+        let parts = [topology, places, values, stages, copies, edges, features, patches];
         saturate(parts.into_iter().fold(0, u128::saturating_add))
     }
+}
+
+/// How many of the last levels of a closed, smooth mesh are worth a single step.
+fn patch_depth(mesh: &Mesh, scheme: &Scheme, levels: &[Counts]) -> u32 {
+    /// Fewer patches do not pay for their tables.
+    const FEWEST: u64 = 256;
+    let primal = scheme.split() != SplitKind::Corner && scheme.passes().is_empty();
+    if !primal || !Patches::fit(mesh) {
+        return 0;
+    }
+    let last = levels.len() - 1;
+    let side = u64::from(scheme.pieces().sides());
+    let fits = |&depth: &u32| {
+        let parent = &levels[last - depth as usize];
+        parent.faces >= FEWEST
+            && parent.corners == side * parent.faces
+            && parent.irregular_faces == 0
+    };
+    (2..=DEEPEST.min(last as u32)).rev().find(fits).unwrap_or(0)
+}
+
+/// What patches need beside their parent: which sides each leads, what its corners become,
+/// and a share of their tables and fans.
+fn patch_bytes(parent: &Counts, width: u64, size: u64) -> u128 {
+    const TABLES: u128 = 256 << 10;
+    let sides = 5 * u128::from(parent.faces);
+    sides.saturating_add(value_bytes(parent.corners, width, size)).saturating_add(TABLES)
 }
 
 fn saturate(bytes: u128) -> u64 {

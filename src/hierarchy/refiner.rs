@@ -258,8 +258,11 @@ impl<T: Scalar> Task<'_, T> {
         for attribute in self.attributes {
             self.scheme.check_interpolation(attribute.interpolation)?;
         }
-        let plan = Prediction::new(self.mesh, self.scheme, self.levels)?;
+        let mut plan = Prediction::new(self.mesh, self.scheme, self.levels)?;
         plan.check_index_type()?;
+        if !self.channels.is_empty() {
+            plan = plan.level_by_level();
+        }
         let mut channels = 0_u64;
         for data in self.channels {
             let plan = data.plan(self.mesh, self.scheme, self.levels)?;
@@ -394,15 +397,10 @@ impl<T: Scalar> Run<'_, T> {
         let channels = channels.map(|data| ChannelRun::new(self.task.scheme, self.task.mesh, data));
         let mut channels = channels.collect::<Result<Vec<_>>>()?;
         let mut owned: Option<Mesh> = None;
-        let last = self.task.levels as usize - 1;
-        let depth = self.plan.patch_depth() as usize;
-        let mut at_once = None;
+        let levels = self.task.levels as usize;
+        let last = levels - (self.plan.patch_depth() as usize).max(1);
         for level in 0..last {
             let parent = owned.as_ref().unwrap_or(self.task.mesh);
-            if level + depth > last && self.in_patches(parent) {
-                at_once = Some(level);
-                break;
-            }
             let split = self.task.scheme.plan(self.context, parent, &mut refiner.edges)?;
             let steps = self.steps(&split)?;
             for (column, &place) in refiner.columns.iter_mut().zip(&places) {
@@ -425,63 +423,15 @@ impl<T: Scalar> Run<'_, T> {
             self.progress(level + 1, 0.0)?;
         }
         let parent = owned.as_ref().unwrap_or(self.task.mesh);
-        if let Some(level) = at_once {
-            self.patches(refiner, parent, &places, level, output)?;
-        } else {
+        if last + 1 == levels {
             self.last_level(refiner, parent, &places, &mut channels, output)?;
+        } else {
+            self.last_levels(refiner, parent, &places, last, output)?;
         }
         if let Some(mesh) = owned {
-            refiner.levels[at_once.unwrap_or(last) - 1].absorb(mesh);
+            refiner.levels[last - 1].absorb(mesh);
         }
-        self.progress(last + 1, 0.0)
-    }
-
-    /// True if the levels that are left can be had in one step.
-    fn in_patches(&self, parent: &Mesh) -> bool {
-        !self.watch
-            && self.task.channels.is_empty()
-            && Patches::fit(parent, self.task.scheme.pieces())
-    }
-
-    /// All levels from one on in one step, straight into the output.
-    fn patches(
-        &self,
-        refiner: &mut Refiner<T>,
-        parent: &Mesh,
-        places: &[Place],
-        level: usize,
-        mut output: Output<T>,
-    ) -> Result<()> {
-        let depth = self.task.levels - level as u32;
-        let patches = Patches::new(parent, self.task.scheme.pieces(), depth)?;
-        if let Some(sizes) = &mut output.face_sizes {
-            patches.write_sizes(sizes);
-        }
-        if let Some(vertices) = output.face_vertices.take() {
-            patches.write_faces(self.context, vertices)?;
-        }
-        if let Some(sources) = output.face_sources.take() {
-            let kept = refiner.face_sources.get(level).filter(|_| level > 0);
-            patches.each_face_source(|child, face| {
-                sources[child] = kept.map_or(face, |kept| kept[face as usize]);
-            });
-        }
-        let masks = |interpolation| match interpolation {
-            Interpolation::Varying => SmoothMasks::linear(),
-            Interpolation::Vertex => SmoothMasks::new(self.task.scheme),
-        };
-        let step = |interpolation| Step::patches(PatchStep::new(&patches, masks(interpolation)));
-        let parts = places.len() as f64 + 1.0;
-        for (done, (column, &place)) in refiner.columns.iter_mut().zip(places).enumerate() {
-            self.progress(level, (done as f64 + 1.0) / parts)?;
-            let out = match place.attribute.checked_sub(1) {
-                None => &mut *output.positions,
-                Some(i) => &mut *output.attributes[i],
-            };
-            let step = step(self.interpolation(place));
-            column.finish(self.context, &step, level, place, self.input(place), out)?;
-        }
-        Ok(())
+        self.progress(levels, 0.0)
     }
 
     /// Faces and values only, straight into the output.
@@ -502,7 +452,56 @@ impl<T: Scalar> Run<'_, T> {
             split.write_faces(self.context, vertices)?;
         }
         self.inherit(&mut refiner.face_sources, &split, level, output.face_sources.take())?;
-        let steps = self.steps(&split)?;
+        self.finish(refiner, places, level, &self.steps(&split)?, &mut output)?;
+        for ((channel, out), shape) in
+            channels.iter_mut().zip(&mut output.channels).zip(split.primal())
+        {
+            channel.finish(self.context, shape, level, self.watch, out)?;
+        }
+        split.recycle(&mut refiner.edges);
+        Ok(())
+    }
+
+    /// The same for all levels from one on, in one step.
+    fn last_levels(
+        &self,
+        refiner: &mut Refiner<T>,
+        parent: &Mesh,
+        places: &[Place],
+        level: usize,
+        mut output: Output<T>,
+    ) -> Result<()> {
+        let scheme = self.task.scheme;
+        let patches = Patches::new(parent, scheme.pieces(), self.plan.patch_depth())?;
+        if let Some(sizes) = &mut output.face_sizes {
+            patches.write_sizes(sizes);
+        }
+        if let Some(vertices) = output.face_vertices.take() {
+            patches.write_faces(self.context, vertices)?;
+        }
+        if let Some(sources) = output.face_sources.take() {
+            let kept = &refiner.face_sources;
+            patches.each_face_source(|child, face| {
+                sources[child] = if level == 0 { face } else { kept[level][face as usize] };
+            });
+        }
+        let step = |masks| Step::patches(PatchStep::new(&patches, masks));
+        let steps = Steps {
+            vertex: step(SmoothMasks::new(scheme)),
+            varying: self.varies().then(|| step(SmoothMasks::linear())),
+        };
+        self.finish(refiner, places, level, &steps, &mut output)
+    }
+
+    /// The values of the last level, from those of the level that the steps start from.
+    fn finish(
+        &self,
+        refiner: &mut Refiner<T>,
+        places: &[Place],
+        level: usize,
+        steps: &Steps,
+        output: &mut Output<T>,
+    ) -> Result<()> {
         let parts = places.len() as f64 + 1.0;
         for (done, (column, &place)) in refiner.columns.iter_mut().zip(places).enumerate() {
             self.progress(level, (done as f64 + 1.0) / parts)?;
@@ -514,28 +513,24 @@ impl<T: Scalar> Run<'_, T> {
             column.finish(self.context, step, level, place, self.input(place), out)?;
             // Not before all lanes are there: what a buffer held does not count.
             if place.first + column.lanes() == place.width {
-                self.check(out, level + 1)?;
+                self.check(out, self.task.levels as usize)?;
             }
         }
-        drop(steps);
-        for ((channel, out), shape) in
-            channels.iter_mut().zip(&mut output.channels).zip(split.primal())
-        {
-            channel.finish(self.context, shape, level, self.watch, out)?;
-        }
-        split.recycle(&mut refiner.edges);
         Ok(())
     }
 
     /// The steps for all kinds of values.
     fn steps<'s>(&'s self, split: &'s Split<'s>) -> Result<Steps<'s>> {
         let step = |interpolation| Step::new(self.task.scheme, split, interpolation);
-        let varies = |a: &Attribute<T>| a.interpolation == Interpolation::Varying;
-        let varying = self.task.attributes.iter().any(varies);
         Ok(Steps {
             vertex: step(Interpolation::Vertex)?,
-            varying: if varying { Some(step(Interpolation::Varying)?) } else { None },
+            varying: if self.varies() { Some(step(Interpolation::Varying)?) } else { None },
         })
+    }
+
+    /// True if some values are refined linearly.
+    fn varies(&self) -> bool {
+        self.task.attributes.iter().any(|a| a.interpolation == Interpolation::Varying)
     }
 
     fn interpolation(&self, place: Place) -> Interpolation {
@@ -601,11 +596,13 @@ impl<T: Scalar> Run<'_, T> {
     }
 
     /// Reports the part of all vertices that is done: those of the levels up to
-    /// one, and a part of the next one's.
+    /// one, and a part of the next step's.
     fn progress(&self, level: usize, part: f64) -> Result<()> {
         let vertices = |levels: &[Counts]| levels.iter().map(|c| c.vertices as f64).sum::<f64>();
         let all = self.plan.levels();
-        let next = all.get(level + 1).map_or(0.0, |counts| part * counts.vertices as f64);
+        let depth = self.plan.patch_depth() as usize;
+        let step = if level + depth + 1 == all.len() { depth.max(1) } else { 1 };
+        let next = all.get(level + 1..=level + step).map_or(0.0, |next| part * vertices(next));
         self.context.report((vertices(&all[1..=level]) + next) / vertices(&all[1..]).max(1.0))
     }
 }

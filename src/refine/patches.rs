@@ -35,25 +35,19 @@ pub(crate) struct Patches<'a> {
 }
 
 impl<'a> Patches<'a> {
-    /// True if a mesh can be refined this way: closed, without sharp features, all faces
-    /// regular and none its own neighbour.
-    pub(crate) fn fit(mesh: &Mesh, pieces: Pieces) -> bool {
-        let layout = &mesh.layout;
-        let regular = layout.side() == pieces.sides() && layout.irregular_corners() == 0;
-        let smooth = mesh.rim.is_empty() && mesh.joints.is_empty() && mesh.sharpness.is_empty();
-        regular && smooth && {
-            let side = layout.side();
-            let own = |(c, &twin): (u32, &u32)| c / side == twin / side;
-            !(0..).zip(&mesh.twin).any(own)
-        }
+    /// True if a mesh can be refined this way once its faces are regular: closed and without
+    /// sharp features. No face is its own neighbour, since none repeats a vertex.
+    pub(crate) fn fit(mesh: &Mesh) -> bool {
+        mesh.rim.is_empty() && mesh.joints.is_empty() && mesh.sharpness.is_empty()
     }
 
-    /// Plans `depth` splits of a mesh that fits.
+    /// Plans `depth` splits of a mesh that fits and has no other faces than the pieces.
     ///
     /// # Errors
     /// [`ErrorKind::TooLarge`] if the children do not fit the index type.
     pub(crate) fn new(parent: &'a Mesh, pieces: Pieces, depth: u32) -> Result<Self> {
         let side = pieces.sides();
+        debug_assert!(Self::fit(parent) && parent.corners() == side as usize * parent.faces());
         let mut counts = Counts::sizes_of(parent);
         let mut runs = memory::collect([parent.vertices() as u32])?;
         for _ in 0..depth {
