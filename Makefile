@@ -24,7 +24,6 @@ demo: tools
 test: test-tools lint
 	$(CARGO) test --workspace --all-features --locked
 	$(CARGO) build --locked --no-default-features
-	$(CARGO) bench --all-features --locked --no-run
 	OUT=out/test $(MAKE) --no-print-directory demo
 
 lint: tools
@@ -41,6 +40,7 @@ deep: tools
 	target/release/carvel subdivide assets/spot/spot_control_mesh.obj \
 	    -o out/deep/large.obj --levels 7 --json
 	target/release/carvel subdivide out/deep/large.obj -o out/deep/larger.ply --levels 1 --json
+	$(CARGO) bench --all-features --locked --no-run
 	$(MAKE) --no-print-directory fuzz
 
 # Breaks the primal schemes and splits in every way that cargo-mutants knows: hours of

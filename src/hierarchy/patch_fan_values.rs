@@ -18,7 +18,9 @@ struct Level<L> {
 
 /// The extraordinary vertices and their neighbours, level by level.
 pub(super) struct FanValues<T: Scalar> {
-    levels: Vec<(Vec<T::Lanes>, Vec<T::Lanes>)>,
+    /// By level and vertex, by level and slot.
+    own: Vec<Vec<T::Lanes>>,
+    near: Vec<Vec<T::Lanes>>,
 }
 
 impl<T: Scalar> FanValues<T> {
@@ -29,28 +31,30 @@ impl<T: Scalar> FanValues<T> {
         masks: &SmoothMasks<f64>,
         values: &[Value<T, W>],
     ) -> Result<Self> {
-        let mut levels = memory::reserved(patches.depth() as usize)?;
+        let depth = patches.depth() as usize;
+        let (mut own, mut near) = (memory::reserved(depth)?, memory::reserved(depth)?);
         if masks.is_linear() || patches.fans.vertices().is_empty() {
-            return Ok(Self { levels });
+            return Ok(Self { own, near });
         }
         let mut level = gather::<T, W>(patches, values)?;
-        for _ in 0..patches.depth() {
+        for _ in 0..depth {
             level = refine::<T>(context, patches, masks, &level)?;
-            levels.push((memory::copied(&level.own)?, memory::copied(&level.near)?));
+            own.push(memory::copied(&level.own)?);
+            near.push(memory::copied(&level.near)?);
         }
-        Ok(Self { levels })
+        Ok(Self { own, near })
     }
 
     /// The value of a vertex, by its place among the extraordinary ones, after a level's step.
     #[inline]
     pub(super) fn own(&self, level: usize, vertex: usize) -> T::Lanes {
-        self.levels[level].0[vertex]
+        self.own[level][vertex]
     }
 
     /// The value of the neighbour of a slot after a level's step.
     #[inline]
     pub(super) fn near(&self, level: usize, slot: usize) -> T::Lanes {
-        self.levels[level].1[slot]
+        self.near[level][slot]
     }
 }
 

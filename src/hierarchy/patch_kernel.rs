@@ -10,7 +10,7 @@ use super::kernel::{Value, narrow, widen};
 use super::patch_fan_values::FanValues;
 use super::primal_kernel::{face_mean, mix_edge, mix_vertex, regular_sum, weights};
 use crate::base::{Result, Scalar};
-use crate::refine::{PatchArray, PatchGrid, Patches, Pieces, patch_array, within};
+use crate::refine::{PatchArray, Patches, Pieces, patch_array, within};
 use crate::scheme::SmoothMasks;
 
 /// The weights of the regular rules.
@@ -68,9 +68,9 @@ impl<'v, T: Scalar, const W: usize> PatchKernel<'v, T, W> {
             std::mem::swap(&mut self.from, &mut self.to);
             self.mend(patch, level);
         }
-        let (grid, order) = (self.patches.tables().grid, self.patches.order(patch));
-        for (i, slot) in corners.iter_mut().enumerate() {
-            *slot = narrow::<T, W>(self.from[grid.index(grid.corner(i))]);
+        let (frame, order) = (self.patches.tables().frame(depth), self.patches.order(patch));
+        for (slot, &index) in corners.iter_mut().zip(&frame.own) {
+            *slot = narrow::<T, W>(self.from[within(index)]);
         }
         for (level, runs) in runs.chunks_exact_mut(2).enumerate() {
             for (run, indices) in
@@ -94,29 +94,27 @@ impl<'v, T: Scalar, const W: usize> PatchKernel<'v, T, W> {
     /// The patch of level 0 and what is around it.
     fn gather(&mut self, patch: usize) {
         let (mesh, pieces) = (self.patches.parent(), self.patches.pieces());
-        let grid = PatchGrid::new(pieces, 0);
-        for i in 0..grid.sides() {
-            let corner = (patch * grid.sides() + i) as u32;
-            self.from[grid.index(grid.corner(i))] = self.at(corner);
+        let frame = self.patches.tables().frame(0);
+        let sides = pieces.sides() as usize;
+        for i in 0..sides {
+            let corner = (patch * sides + i) as u32;
+            self.from[within(frame.own[i])] = self.at(corner);
             if self.linear {
                 continue;
             }
-            let end = |kernel: &Self, corner: u32| kernel.at(mesh.next(corner));
-            let before = mesh.cw(corner);
-            self.from[grid.index(grid.beside(i, pieces.valence() - 1))] = end(self, before);
             let second = mesh.ccw(mesh.ccw(corner));
-            self.from[grid.index(grid.beside(i, 2))] = end(self, second);
+            self.from[within(frame.before[i])] = self.at(mesh.next(mesh.cw(corner)));
+            self.from[within(frame.second[i])] = self.at(mesh.next(second));
             if self.patches.fans.contains(mesh.vert[corner as usize]) {
                 continue;
             }
+            let [near, far] = frame.beyond[i].map(within);
             match pieces {
-                Pieces::Quads => {
-                    self.from[grid.index(grid.across(i))] = self.at(mesh.next(mesh.next(second)));
-                }
+                Pieces::Quads => self.from[near] = self.at(mesh.next(mesh.next(second))),
                 Pieces::Triangles => {
                     let third = mesh.ccw(second);
-                    self.from[grid.index(grid.beside(i, 3))] = end(self, third);
-                    self.from[grid.index(grid.beside(i, 4))] = end(self, mesh.ccw(third));
+                    self.from[near] = self.at(mesh.next(third));
+                    self.from[far] = self.at(mesh.next(mesh.ccw(third)));
                 }
             }
         }
@@ -147,21 +145,22 @@ impl<'v, T: Scalar, const W: usize> PatchKernel<'v, T, W> {
 
     /// The extraordinary corners and their neighbours that the patch does not contain.
     fn mend(&mut self, patch: usize, level: u32) {
-        let (patches, pieces) = (self.patches, self.patches.pieces());
-        let grid = PatchGrid::new(pieces, level + 1);
-        for i in 0..grid.sides() {
-            let corner = (patch * grid.sides() + i) as u32;
-            let vertex = patches.parent().vert[corner as usize];
-            if self.linear || !patches.fans.contains(vertex) {
+        let (patches, fans) = (self.patches, &self.patches.fans);
+        let frame = patches.tables().frame(level + 1);
+        let sides = patches.pieces().sides() as usize;
+        if self.linear || fans.vertices().is_empty() {
+            return;
+        }
+        for i in 0..sides {
+            let corner = (patch * sides + i) as u32;
+            if !fans.contains(patches.parent().vert[corner as usize]) {
                 continue;
             }
-            let Some(slot) = patches.fans.slot(corner) else { continue };
-            let (fans, level) = (&patches.fans, level as usize);
-            self.from[grid.index(grid.corner(i))] = self.fans.own(level, fans.owner(slot));
-            let second = self.fans.near(level, fans.turn(slot, 2));
-            self.from[grid.index(grid.beside(i, 2))] = second;
-            let before = self.fans.near(level, fans.back(slot));
-            self.from[grid.index(grid.beside(i, pieces.valence() - 1))] = before;
+            let Some(slot) = fans.slot(corner) else { continue };
+            let level = level as usize;
+            self.from[within(frame.own[i])] = self.fans.own(level, fans.owner(slot));
+            self.from[within(frame.second[i])] = self.fans.near(level, fans.turn(slot, 2));
+            self.from[within(frame.before[i])] = self.fans.near(level, fans.back(slot));
         }
     }
 }
@@ -182,7 +181,7 @@ fn refine_quads<T: Scalar, const N: usize, const RING: bool>(
 ) {
     let (wide, new) = (N + 3, 2 * N + 3);
     let (from, to) = (&from[..wide * wide], &mut to[..new * new]);
-    let skip = if RING { 0 } else { 1 };
+    let skip = usize::from(!RING);
     for y in 0..N + 2 {
         let (low, high) = (row(from, y, wide), row(from, y + 1, wide));
         let out = &mut to[2 * y * new..(2 * y + 1) * new];
@@ -226,24 +225,24 @@ fn bisect_quads<T: Scalar, const N: usize>(
 ) {
     let (wide, new) = (N + 3, 2 * N + 3);
     let (from, to) = (&from[..wide * wide], &mut to[..new * new]);
-    let half = rules.edge[0];
+    let (half, end) = (rules.edge[0], N + 1);
     for y in 1..N + 2 {
         let own = row(from, y, wide);
         let out = &mut to[(2 * y - 1) * new..2 * y * new];
         for x in 1..N + 2 {
             out[2 * x - 1] = own[x];
         }
-        for x in 1..N + 1 {
+        for x in 1..end {
             out[2 * x] = (own[x] + own[x + 1]) * half;
         }
     }
-    for y in 1..N + 1 {
+    for y in 1..end {
         let (low, high) = (row(from, y, wide), row(from, y + 1, wide));
         let out = &mut to[2 * y * new..(2 * y + 1) * new];
         for x in 1..N + 2 {
             out[2 * x - 1] = (low[x] + high[x]) * half;
         }
-        for x in 1..N + 1 {
+        for x in 1..end {
             out[2 * x] = face_mean::<T, _>([low[x], low[x + 1], high[x + 1], high[x]]);
         }
     }
@@ -259,7 +258,7 @@ fn refine_triangles<T: Scalar, const N: usize, const RING: bool>(
 ) {
     let (wide, new) = (N + 3, 2 * N + 3);
     let (from, to) = (&from[..wide * wide], &mut to[..new * new]);
-    let skip = if RING { 0 } else { 1 };
+    let skip = usize::from(!RING);
     let zero = T::lanes([T::default(); 4]);
     for y in 1..N + 2 {
         let (below, own) = (row(from, y - 1, wide), row(from, y, wide));

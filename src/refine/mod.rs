@@ -28,7 +28,7 @@ pub(crate) use edges::EdgeNumbers;
 pub use lineage::{FaceOrigin, VertexOrigin};
 pub(crate) use neighbourhood::{BoundaryNeighbours, Cycle, Neighbourhood, Side};
 pub(crate) use patch_fans::PatchFans;
-pub(crate) use patch_grid::{DEEPEST, PatchArray, PatchGrid, patch_array, within};
+pub(crate) use patch_grid::{DEEPEST, PatchArray, patch_array, within};
 pub(crate) use patches::Patches;
 pub(crate) use primal_split::{Pieces, PrimalChild, PrimalSplit};
 pub(crate) use split::{Carried, Split};

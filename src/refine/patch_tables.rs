@@ -5,7 +5,7 @@
 //! of the edges on the sides belong to it depends on nothing but which sides it leads.
 
 use super::Pieces;
-use super::patch_grid::{PatchGrid, Place};
+use super::patch_grid::{PatchFrame, PatchGrid, Place};
 use crate::base::{Result, memory};
 
 /// Which sides a face leads, one bit each.
@@ -51,7 +51,7 @@ impl PatchOrder {
 /// The orders of all kinds of faces, and the last level's faces.
 #[derive(Debug)]
 pub(crate) struct PatchTables {
-    pub(crate) grid: PatchGrid,
+    frames: Vec<PatchFrame>,
     kinds: Vec<Option<PatchOrder>>,
     /// Of all faces but the last level's: the array indices of their vertices and of the
     /// middles of their edges.
@@ -85,9 +85,17 @@ impl PatchTables {
             face.iter().copied().chain(middles).map(|place| grid.index(place) as u16)
         });
         let parents = memory::collect(parents)?;
+        let frame = |level| PatchFrame::new(PatchGrid::new(pieces, level));
+        let frames = memory::collect((0..=depth).map(frame))?;
         let sides = memory::collect((0..grid.sides()).map(|side| along(grid, side, depth)))?;
         let sides = sides.into_iter().collect::<Result<_>>()?;
-        Ok(Self { grid, kinds: orders, parents, sides })
+        Ok(Self { frames, kinds: orders, parents, sides })
+    }
+
+    /// The frame of the array of a level.
+    #[inline(always)]
+    pub(crate) fn frame(&self, level: u32) -> &PatchFrame {
+        &self.frames[level as usize]
     }
 
     /// The array indices of the vertices that a level adds on a side, from its start.
@@ -180,5 +188,5 @@ fn children(pieces: Pieces, faces: &[Place]) -> Result<Vec<Place>> {
 }
 
 fn mean(a: Place, b: Place) -> Place {
-    [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2]
+    [i32::midpoint(a[0], b[0]), i32::midpoint(a[1], b[1])]
 }

@@ -194,7 +194,7 @@ impl<'a> Patches<'a> {
 
     /// The numbers of the vertices in a patch.
     fn number(&self, patch: usize, numbers: &mut PatchArray<u32>) {
-        let (grid, order) = (self.tables.grid, self.order(patch));
+        let order = self.order(patch);
         for level in 0..self.depth as usize {
             let runs = [order.on_edges(level), order.in_faces(level)];
             for (run, indices) in (2 * level..).zip(runs) {
@@ -204,10 +204,11 @@ impl<'a> Patches<'a> {
                 }
             }
         }
-        let first_corner = patch * grid.sides();
-        for side in 0..grid.sides() {
-            let corner = first_corner + side;
-            numbers[grid.index(grid.corner(side))] = self.parent.vert[corner];
+        let sides = self.pieces.sides() as usize;
+        let corners = self.tables.frame(self.depth).own;
+        for side in 0..sides {
+            let corner = patch * sides + side;
+            numbers[within(corners[side])] = self.parent.vert[corner];
             let twin = self.parent.twin[corner] as usize;
             if twin < corner {
                 self.number_across(side, twin, numbers);
@@ -217,7 +218,7 @@ impl<'a> Patches<'a> {
 
     /// The numbers on a side that the face across it leads.
     fn number_across(&self, side: usize, twin: usize, numbers: &mut PatchArray<u32>) {
-        let sides = self.tables.grid.sides();
+        let sides = self.pieces.sides() as usize;
         let (across, order) = (twin / sides, self.order(twin / sides));
         for level in 0..self.depth as usize {
             let first = self.runs[2 * level] + self.first(2 * level, across);
