@@ -70,7 +70,7 @@ pub trait Scalar:
     /// Four values side by side, in vector registers where the processor has
     /// them. Multiplications and additions stay separate, so that every
     /// processor gives the same bits.
-    type Lanes: Copy + Add<Output = Self::Lanes> + Mul<Self, Output = Self::Lanes>;
+    type Lanes: Copy + Send + Sync + Add<Output = Self::Lanes> + Mul<Self, Output = Self::Lanes>;
 
     /// Size in bytes.
     const BYTES: u64;
