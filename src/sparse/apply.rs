@@ -1,10 +1,9 @@
 //! Tables applied to values.
 //!
 //! Up to four lanes of every record go through a table at a time: they are copied together
-//! first, so that a row reads whole vector registers from memory without gaps. Rows of
-//! equal length that stand next to each other go through a loop unrolled for that length.
+//! first, so that a row reads whole vector registers from memory without gaps.
 
-use super::kernel::{Few, Four, Run, Sum};
+use super::kernel::{Few, Four, Sum, row_sum};
 use super::records::{check_widths, span};
 use super::{Dependents, Records, RecordsMut, StencilTable};
 use crate::base::{Context, Result, Scalar, memory};
@@ -128,7 +127,7 @@ impl<T: Scalar> StencilTable<T> {
             let len = span(out.width, stride, self.rows()).unwrap_or_default();
             return context.fill_records(&mut out.values[..len], stride, |start, part| {
                 let rows = start..(start + part.len().div_ceil(stride)).min(self.rows());
-                self.sums(rows, packed, &mut part.chunks_mut(stride), &slot);
+                self.sums(rows, packed, part.chunks_mut(stride), slot);
             });
         };
         let len = context.chunk_len(rows.len());
@@ -144,35 +143,25 @@ impl<T: Scalar> StencilTable<T> {
             for &row in rows {
                 let row = row as usize;
                 let record = &mut part[(row - first) * stride..];
-                self.sums(row..row + 1, packed, &mut std::iter::once(record), &slot);
+                self.sums(row..row + 1, packed, std::iter::once(record), slot);
             }
         })
     }
 
-    /// The sums of some rows, each handed over with the next slot.
+    /// The sums of some rows, each handed over with a slot.
     #[inline(always)]
     fn sums<V: Scalar, S: Sum<V, N>, const N: usize, O>(
         &self,
         rows: Range<usize>,
         values: &[S],
-        slots: &mut impl Iterator<Item = O>,
-        write: &impl Fn(O, [V; N]),
+        slots: impl Iterator<Item = O>,
+        write: impl Fn(O, [V; N]),
     ) {
-        let len = |row: usize| self.offsets()[row + 1] - self.offsets()[row];
-        let mut next = rows.start;
-        while next < rows.end {
-            let (first, length) = (next, len(next));
-            while next < rows.end && len(next) == length {
-                next += 1;
-            }
-            let entries = self.entries_of(first..next);
-            let run = Run {
-                len: length as usize,
-                indices: &self.indices()[entries.clone()],
-                weights: &self.weights()[entries],
-                values,
-            };
-            run.each(&mut slots.take(next - first), write);
+        let offsets = &self.offsets()[rows.start..=rows.end];
+        for (ends, slot) in offsets.windows(2).zip(slots) {
+            let entries = ends[0] as usize..ends[1] as usize;
+            let row = (&self.indices()[entries.clone()], &self.weights()[entries]);
+            write(slot, row_sum(row.0, row.1, values));
         }
     }
 }

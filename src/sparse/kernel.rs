@@ -54,77 +54,27 @@ impl<V: Scalar, const N: usize> Sum<V, N> for Four<V> {
     }
 }
 
-/// Rows of one length: their entries, one after the other, and the values they speak of.
-pub(super) struct Run<'r, T, S> {
-    pub(super) len: usize,
-    pub(super) indices: &'r [u32],
-    pub(super) weights: &'r [T],
-    pub(super) values: &'r [S],
-}
-
-/// The lengths that are worth a loop of their own, and the loop for all others.
-macro_rules! by_length {
-    ($run:expr, $zero:expr, $slots:expr, $write:expr, $($len:literal)*) => {
-        match $run.len {
-            $($len => $run.fixed::<V, N, $len, O>($zero, $slots, $write),)*
-            _ => $run.any($zero, $slots, $write),
-        }
-    };
-}
-
-impl<T: Scalar, S> Run<'_, T, S> {
-    /// Sums every row and hands it over with the next slot.
-    #[inline(always)]
-    pub(super) fn each<V: Scalar, const N: usize, O>(
-        &self,
-        slots: &mut impl Iterator<Item = O>,
-        write: &impl Fn(O, [V; N]),
-    ) where
-        S: Sum<V, N>,
-    {
-        let zero = S::load([V::default(); N]);
-        by_length!(self, zero, slots, write, 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16);
-    }
-
-    #[inline(always)]
-    fn fixed<V: Scalar, const N: usize, const L: usize, O>(
-        &self,
-        zero: S,
-        slots: &mut impl Iterator<Item = O>,
-        write: &impl Fn(O, [V; N]),
-    ) where
-        S: Sum<V, N>,
-    {
-        let (indices, weights) = (self.indices.as_chunks::<L>().0, self.weights.as_chunks::<L>().0);
-        for (indices, weights) in indices.iter().zip(weights) {
-            let mut sum = zero;
-            for (&i, w) in indices.iter().zip(weights) {
-                sum = sum.plus(self.values[i as usize], V::from_f64(w.to_f64()));
-            }
-            let Some(slot) = slots.next() else { return };
-            write(slot, sum.lanes());
+/// The sum of a row.
+///
+/// Four entries at a time: written out for every length, as for the sixteen entries of a
+/// regular Catmull-Clark row, the compiler checks all indices first, runs out of registers
+/// and needs a third more time.
+#[inline(always)]
+pub(super) fn row_sum<T: Scalar, V: Scalar, S: Sum<V, N>, const N: usize>(
+    indices: &[u32],
+    weights: &[T],
+    values: &[S],
+) -> [V; N] {
+    let mut sum = S::load([V::default(); N]);
+    let (indices, last) = indices.as_chunks::<4>();
+    let (weights, last_weights) = weights.as_chunks::<4>();
+    for (i, w) in indices.iter().zip(weights) {
+        for k in 0..4 {
+            sum = sum.plus(values[i[k] as usize], V::from_f64(w[k].to_f64()));
         }
     }
-
-    fn any<V: Scalar, const N: usize, O>(
-        &self,
-        zero: S,
-        slots: &mut impl Iterator<Item = O>,
-        write: &impl Fn(O, [V; N]),
-    ) where
-        S: Sum<V, N>,
-    {
-        if self.len == 0 {
-            return slots.for_each(|slot| write(slot, zero.lanes()));
-        }
-        let indices = self.indices.chunks_exact(self.len);
-        for (indices, weights) in indices.zip(self.weights.chunks_exact(self.len)) {
-            let mut sum = zero;
-            for (&i, w) in indices.iter().zip(weights) {
-                sum = sum.plus(self.values[i as usize], V::from_f64(w.to_f64()));
-            }
-            let Some(slot) = slots.next() else { return };
-            write(slot, sum.lanes());
-        }
+    for (&i, w) in last.iter().zip(last_weights) {
+        sum = sum.plus(values[i as usize], V::from_f64(w.to_f64()));
     }
+    sum.lanes()
 }
