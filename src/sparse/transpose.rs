@@ -26,6 +26,11 @@ impl Dependents {
         Err(Error::new(ErrorKind::LengthMismatch, message))
     }
 
+    /// Bytes held.
+    pub fn bytes(&self) -> u64 {
+        4 * (self.offsets.capacity() + self.of_column.capacity()) as u64
+    }
+
     fn columns(&self) -> usize {
         self.offsets.len() - 1
     }
