@@ -15,6 +15,7 @@ mod primal_kernel;
 mod primal_step;
 mod refiner;
 mod stencil_build;
+mod stencil_regular;
 mod stencil_rows;
 mod stencils;
 mod step;

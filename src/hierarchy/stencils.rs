@@ -7,11 +7,12 @@
 
 use super::Hierarchy;
 use super::stencil_build::Builder;
+use super::stencil_regular::Regular;
 use super::stencil_rows::Wanted;
 use super::step::Interpolation;
 use crate::base::{Context, Element, Error, ErrorKind, Result, Scalar, memory};
 use crate::refine::{EdgeNumbers, Split};
-use crate::sparse::StencilTable;
+use crate::sparse::{StencilTable, assemble};
 
 /// Which stencil table to make of a [`Hierarchy`].
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -60,19 +61,83 @@ impl Hierarchy {
         self.scheme().check_interpolation(task.interpolation)?;
         self.check_task(task)?;
         context.report(0.0)?;
-        let splits: Vec<Split> = (task.from..task.to)
-            .map(|level| self.split(context, level, &mut EdgeNumbers::default()))
-            .collect::<Result<_>>()?;
         let columns = self.mesh(task.from).vertices();
-        let rows = splits.last().map_or(columns, |split| split.counts().vertices as usize);
-        check_vertices(task.vertices, rows)?;
-        let Some((last, before)) = splits.split_last() else {
+        let Some(before) = (task.from < task.to).then(|| task.to - 1) else {
+            check_vertices(task.vertices, columns)?;
             let table = StencilTable::identity(columns)?;
             return match task.vertices {
                 Some(list) => table.select(context, list),
                 None => Ok(table),
             };
         };
+        let split = self.split(context, before, &mut EdgeNumbers::default())?;
+        let rows = split.counts().vertices as usize;
+        check_vertices(task.vertices, rows)?;
+        if let Split::Primal(split) = &split
+            && let Some(regular) = Regular::new(context, self, task, split)?
+        {
+            return self.rows_by_patterns(context, task, &regular, rows);
+        }
+        drop(split);
+        self.rows_by_stages(context, task)
+    }
+
+    /// Rows copied where the mesh is regular; the others stage by stage.
+    fn rows_by_patterns<T: Scalar>(
+        &self,
+        context: &Context,
+        task: &StencilTask,
+        regular: &Regular,
+        rows: usize,
+    ) -> Result<StencilTable<T>> {
+        let irregular = |v: &u32| regular.find(*v).is_none();
+        let mut rest = match task.vertices {
+            Some(list) => memory::collect(list.iter().copied().filter(irregular))?,
+            None => memory::collect((0..rows as u32).filter(irregular))?,
+        };
+        rest.sort_unstable();
+        rest.dedup();
+        let columns = self.mesh(task.from).vertices();
+        let others: StencilTable<T> = if rest.is_empty() {
+            StencilTable::new(columns, &[0], Vec::new(), Vec::new())?
+        } else {
+            self.rows_by_stages(context, &StencilTask { vertices: Some(&rest), ..*task })?
+        };
+        let count = task.vertices.map_or(rows, <[u32]>::len);
+        let table = assemble(
+            context,
+            count,
+            columns,
+            || Ok(()),
+            |(), at, out| {
+                let vertex = task.vertices.map_or(at as u32, |list| list[at]);
+                if let Some(found) = regular.find(vertex) {
+                    let (columns, weights) = regular.row(found);
+                    return out.row(columns, weights);
+                }
+                // It was not found before either.
+                let place = rest.binary_search(&vertex).unwrap_or_default();
+                out.copy(others.row(place))
+            },
+        )?;
+        context.report(1.0)?;
+        Ok(table)
+    }
+
+    /// All rows of a task, each stage made of the one before; there is a step.
+    pub(super) fn rows_by_stages<T: Scalar>(
+        &self,
+        context: &Context,
+        task: &StencilTask,
+    ) -> Result<StencilTable<T>> {
+        let splits: Vec<Split> = (task.from..task.to)
+            .map(|level| self.split(context, level, &mut EdgeNumbers::default()))
+            .collect::<Result<_>>()?;
+        let columns = self.mesh(task.from).vertices();
+        let (last, before) = splits.split_last().ok_or_else(|| {
+            Error::new(ErrorKind::BrokenInvariant, "rows are asked for without a step")
+        })?;
+        let rows = last.counts().vertices as usize;
         let builder = Builder::new(context, self.scheme(), task, columns);
         let needs = builder.needs(&splits, task.vertices)?;
         let all = Wanted::All(columns);

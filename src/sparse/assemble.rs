@@ -17,14 +17,17 @@ pub(crate) struct RowWriter<T> {
 }
 
 impl<T: Scalar> RowWriter<T> {
-    /// The next row.
-    pub(crate) fn row(&mut self, entries: impl ExactSizeIterator<Item = (u32, T)>) -> Result<()> {
-        memory::grow(&mut self.indices, entries.len())?;
-        memory::grow(&mut self.weights, entries.len())?;
-        for (index, weight) in entries {
-            self.indices.push(index);
-            self.weights.push(weight);
-        }
+    /// The next row: as many weights as columns.
+    #[inline]
+    pub(crate) fn row(
+        &mut self,
+        indices: impl ExactSizeIterator<Item = u32>,
+        weights: impl ExactSizeIterator<Item = T>,
+    ) -> Result<()> {
+        memory::grow(&mut self.indices, indices.len())?;
+        memory::grow(&mut self.weights, weights.len())?;
+        self.indices.extend(indices);
+        self.weights.extend(weights);
         self.end()
     }
 

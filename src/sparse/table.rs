@@ -166,10 +166,7 @@ impl<T: Scalar> StencilTable<T> {
             rows.len(),
             self.columns(),
             || Ok(()),
-            |(), at, out| {
-                let (indices, weights) = self.row(rows[at] as usize);
-                out.row(indices.iter().copied().zip(weights.iter().copied()))
-            },
+            |(), at, out| out.copy(self.row(rows[at] as usize)),
         )
     }
 

@@ -8,5 +8,6 @@
 mod files;
 mod operators;
 mod refused;
+mod regular;
 mod tables;
 mod threads;
