@@ -198,3 +198,18 @@ fn torus() -> Result<Mesh> {
     Mesh::from_polygons(count as usize, &vec![4; count as usize], &faces)
         .map_err(|_| Error::new(ErrorKind::BrokenInvariant, "a torus is refused"))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A ring that came out wrong would be refused as one, and every row be made the
+    /// long way: right, and slow.
+    #[test]
+    fn a_regular_mesh_has_rings_only() {
+        let torus = torus().unwrap();
+        let all = rings(&Scheme::catmull_clark(), &torus).unwrap();
+        assert_eq!(all.len(), (SIDE * SIDE) as usize);
+        assert!(all.iter().all(|ring| ring[0] != NONE));
+    }
+}
