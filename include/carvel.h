@@ -102,6 +102,7 @@
  *   (predict)         what a level will cost, before anything is built
  *   carvel_refiner    one-shot: faces and values of level n
  *   carvel_hierarchy  all levels, kept: values again and again, lineage
+ *   carvel_stencils   rows of weights: the cheapest values of a fixed topology
  *
  * Each is made by a _create function, which hands it over to the caller, and
  * given back by its _destroy function; NULL may be destroyed. An object may be
@@ -139,7 +140,7 @@
  *            counts query (carvel_mesh_counts, carvel_hierarchy_counts,
  *            carvel_predict_counts) tells the size. Outputs must not overlap
  *            inputs or each other; interleaved records of equal stride may lie
- *            between each other.
+ *            between each other, but for those of carvel_stencils.
  *
  * Structs    that may grow start with `struct_size`, the size that the caller
  *            was compiled with, and have an _init function that takes it and
@@ -162,8 +163,8 @@
  *            its boundary is rounded off anew. The surface is the one that more
  *            levels at once give, numbered otherwise.
  *
- * Threads    A mesh, scheme, hierarchy or context may be used by any number of
- *            threads at once. A refiner serves one call at a time and answers
+ * Threads    A mesh, scheme, hierarchy, context or stencil table may be used by any
+ *            number of threads at once. A refiner serves one call at a time and answers
  *            CARVEL_STATUS_BUSY to another. An error belongs to one thread at
  *            a time. There is no global state that a caller could see, no
  *            hidden thread pool.
@@ -268,8 +269,10 @@ enum carvel_status_code {
     /* The progress callback or carvel_context_cancel asked to stop. */
     CARVEL_STATUS_CANCELLED = 17,
 
-    /* Files; no function of this header returns these yet. */
+    /* Files. */
+    /* A file could not be opened, read or written. */
     CARVEL_STATUS_IO = 18,
+    /* A file is cut off, changed, or another kind of file. */
     CARVEL_STATUS_SYNTAX = 19,
     /* A scheme has no rule for what it was given. The C++ layer answers this, too,
      * for what it cannot take from another library. */
@@ -1358,8 +1361,8 @@ CARVEL_API carvel_status carvel_hierarchy_face_origins(const carvel_hierarchy *h
 
 /* The weights of one stage of a step as a sparse matrix in CSR form. Stage 0 is
  * the split, from the vertices of `level` - 1 to those of `level`; stage k is the
- * k-th smoothing pass, on the vertices of `level`: those of carvel_scheme_passes. Stencil tables of whole levels
- * will replace this.
+ * k-th smoothing pass, on the vertices of `level`: those of carvel_scheme_passes. Whole
+ * steps and levels are carvel_stencils.
  *
  * offsets: `vertices` of the level + 1 entries.
  * indices, weights: one for each entry; an index may occur twice in a row. With
@@ -1374,6 +1377,200 @@ CARVEL_EXPERIMENTAL carvel_status carvel_hierarchy_rows(const carvel_hierarchy *
                                                         uint32_t *indices, double *weights,
                                                         uint64_t capacity, uint64_t *count,
                                                         carvel_error *error);
+
+/* ==========================================================================
+ * carvel_stencils: rows of weights
+ *
+ * A sparse matrix: row i says by which weights value i of a level is made of the
+ * values of a coarser level. Made once for a topology, applied as often as the
+ * control points move; its transpose carries gradients back. Immutable and shared
+ * freely; what it makes when it is asked for first (the transpose, the rows that
+ * depend on a column) is kept.
+ *
+ * A table takes 4 bytes for a row, 4 and a weight for an entry: 6 to 17 entries for a
+ * row. Refining once by a carvel_refiner costs less than making a table.
+ * ========================================================================== */
+
+typedef struct carvel_stencils carvel_stencils;
+
+/* Number types of weights. */
+enum carvel_precision {
+    CARVEL_PRECISION_F32 = 0,
+    CARVEL_PRECISION_F64 = 1
+};
+
+/* Which table. */
+typedef struct carvel_stencils_desc {
+    uint32_t struct_size;
+    /* The level that columns belong to; 0 for the control mesh. */
+    uint32_t from_level;
+    /* The level that rows belong to: from `from_level` to one beyond the last level of
+     * the hierarchy, whose mesh is all that those rows need. `level` - 1 as
+     * `from_level` gives the table of a single step. */
+    uint32_t level;
+    /* One of enum carvel_interpolation. */
+    int32_t interpolation;
+    /* One of enum carvel_precision: weights are computed in double precision and
+     * rounded once. */
+    int32_t precision;
+    /* 0. */
+    uint32_t reserved;
+    /* The vertices of `level` that get a row, in the order of the rows, each as often
+     * as it is listed; NULL with the count 0 for all. Only what they need is computed. */
+    const uint32_t *vertices;
+    uint64_t vertex_count;
+} carvel_stencils_desc;
+
+/* The size of a table. */
+typedef struct carvel_stencil_counts {
+    uint32_t struct_size;
+    /* One of enum carvel_precision. */
+    int32_t precision;
+    /* Values that are made. */
+    uint64_t rows;
+    /* Values that they are made of. */
+    uint64_t columns;
+    /* Weights; none is 0. */
+    uint64_t entries;
+    /* Memory held, with what was made since. */
+    uint64_t bytes;
+} carvel_stencil_counts;
+
+/* Sets every field to its default: struct_size is sizeof(carvel_stencils_desc).
+ * Errors: NULL_POINTER, MISALIGNED, STRUCT_SIZE. */
+CARVEL_API carvel_status carvel_stencils_desc_init(carvel_stencils_desc *desc,
+                                                   uint32_t struct_size);
+CARVEL_API carvel_status carvel_stencil_counts_init(carvel_stencil_counts *counts,
+                                                    uint32_t struct_size);
+
+/* Makes a table. The hierarchy is not needed afterwards. O(entries of the table),
+ * some tens of nanoseconds for each row.
+ * Errors: NULL_POINTER, MISALIGNED, STRUCT_SIZE; PARAMETER_OUT_OF_RANGE for levels, an
+ * interpolation, a precision or `reserved`; INDEX_OUT_OF_RANGE for a vertex;
+ * UNSUPPORTED for varying rows of a dual scheme; TOO_LARGE for 4294967295 weights and
+ * more, OVERFLOW, MEMORY_CEILING, OUT_OF_RESOURCES, CANCELLED. */
+CARVEL_API carvel_status carvel_stencils_create(const carvel_context *context,
+                                                const carvel_hierarchy *hierarchy,
+                                                const carvel_stencils_desc *desc,
+                                                carvel_stencils **out, carvel_error *error);
+
+/* The table that does what `first` and then `then` do; both of one precision, which
+ * it has as well. O(pairs of entries that meet).
+ * Errors: NULL_POINTER, MISALIGNED, LENGTH_MISMATCH unless `then` has a column for each
+ * row of `first`, PARAMETER_OUT_OF_RANGE for different precisions, OVERFLOW, TOO_LARGE,
+ * MEMORY_CEILING, OUT_OF_RESOURCES, CANCELLED. */
+CARVEL_API carvel_status carvel_stencils_product(const carvel_context *context,
+                                                 const carvel_stencils *first,
+                                                 const carvel_stencils *then,
+                                                 carvel_stencils **out, carvel_error *error);
+
+/* The table with rows and columns exchanged. O(entries).
+ * Errors: NULL_POINTER, MISALIGNED, MEMORY_CEILING, OUT_OF_RESOURCES, CANCELLED. */
+CARVEL_API carvel_status carvel_stencils_transpose(const carvel_context *context,
+                                                   const carvel_stencils *stencils,
+                                                   carvel_stencils **out, carvel_error *error);
+
+/* Destroys a table. NULL is allowed. */
+CARVEL_API void carvel_stencils_destroy(carvel_stencils *stencils);
+
+/* The sizes of a table; counts->struct_size must be set. No cost.
+ * Errors: NULL_POINTER, MISALIGNED, STRUCT_SIZE. */
+CARVEL_API carvel_status carvel_stencils_counts(const carvel_stencils *stencils,
+                                                carvel_stencil_counts *counts,
+                                                carvel_error *error);
+
+/* The table in CSR form, in the number type asked for.
+ * offsets: `rows` + 1 entries, where the entries of each row begin, the last being the
+ * number of entries.
+ * indices, weights: `entries` entries; no column comes twice in a row.
+ * Errors: NULL_POINTER, MISALIGNED, OVERLAP, BUFFER_TOO_SMALL, TOO_LARGE. */
+CARVEL_API carvel_status carvel_stencils_csr_f32(const carvel_stencils *stencils,
+                                                 uint64_t *offsets, uint64_t offset_capacity,
+                                                 uint32_t *indices, float *weights,
+                                                 uint64_t capacity, carvel_error *error);
+CARVEL_API carvel_status carvel_stencils_csr_f64(const carvel_stencils *stencils,
+                                                 uint64_t *offsets, uint64_t offset_capacity,
+                                                 uint32_t *indices, double *weights,
+                                                 uint64_t capacity, carvel_error *error);
+
+/* Computes all values: a record for every column in, one of the same width for every
+ * row out. Weights are rounded to the values' number type; products are added in the
+ * order of the entries. Records with a stride are read and written where they are, so
+ * that those of `out` may not lie between those of `values`. NaN and infinities go
+ * through as arithmetic has it. After CANCELLED and OUT_OF_RESOURCES the buffer's
+ * content is undefined. O(entries), and a copy of the values in four-lane records.
+ * Errors: NULL_POINTER, MISALIGNED, INVALID_STRIDE, OVERLAP, BUFFER_TOO_SMALL,
+ * LENGTH_MISMATCH, PARAMETER_OUT_OF_RANGE for a width, TOO_LARGE, OUT_OF_RESOURCES,
+ * CANCELLED. */
+CARVEL_API carvel_status carvel_stencils_apply_f32(const carvel_stencils *stencils,
+                                                   const carvel_context *context,
+                                                   const carvel_const_values_f32 *values,
+                                                   const carvel_values_f32 *out,
+                                                   carvel_error *error);
+CARVEL_API carvel_status carvel_stencils_apply_f64(const carvel_stencils *stencils,
+                                                   const carvel_context *context,
+                                                   const carvel_const_values_f64 *values,
+                                                   const carvel_values_f64 *out,
+                                                   carvel_error *error);
+
+/* The same, added to what `out` holds. */
+CARVEL_API carvel_status carvel_stencils_apply_add_f32(const carvel_stencils *stencils,
+                                                       const carvel_context *context,
+                                                       const carvel_const_values_f32 *values,
+                                                       const carvel_values_f32 *out,
+                                                       carvel_error *error);
+CARVEL_API carvel_status carvel_stencils_apply_add_f64(const carvel_stencils *stencils,
+                                                       const carvel_context *context,
+                                                       const carvel_const_values_f64 *values,
+                                                       const carvel_values_f64 *out,
+                                                       carvel_error *error);
+
+/* The transpose applied, for gradients: a record for every row in, one for every column
+ * out. The same bits on every number of threads. The first call makes the transpose
+ * and keeps it, which doubles the memory of the table.
+ * Errors: as carvel_stencils_apply, MEMORY_CEILING. */
+CARVEL_API carvel_status carvel_stencils_apply_transpose_f32(
+    const carvel_stencils *stencils, const carvel_context *context,
+    const carvel_const_values_f32 *values, const carvel_values_f32 *out, carvel_error *error);
+CARVEL_API carvel_status carvel_stencils_apply_transpose_f64(
+    const carvel_stencils *stencils, const carvel_context *context,
+    const carvel_const_values_f64 *values, const carvel_values_f64 *out, carvel_error *error);
+
+/* Computes again what depends on the columns `changed`, listed in any order, and leaves
+ * the rest of `out` as it is: the same bits as carvel_stencils_apply. O(entries of those
+ * rows, rows, columns). The first call finds the rows of every column and keeps them, 4
+ * bytes for an entry.
+ * Errors: as carvel_stencils_apply, INDEX_OUT_OF_RANGE for a column, MEMORY_CEILING. */
+CARVEL_API carvel_status carvel_stencils_update_f32(const carvel_stencils *stencils,
+                                                    const carvel_context *context,
+                                                    const uint32_t *changed,
+                                                    uint64_t changed_count,
+                                                    const carvel_const_values_f32 *values,
+                                                    const carvel_values_f32 *out,
+                                                    carvel_error *error);
+CARVEL_API carvel_status carvel_stencils_update_f64(const carvel_stencils *stencils,
+                                                    const carvel_context *context,
+                                                    const uint32_t *changed,
+                                                    uint64_t changed_count,
+                                                    const carvel_const_values_f64 *values,
+                                                    const carvel_values_f64 *out,
+                                                    carvel_error *error);
+
+/* Writes a table to a file of the library's own format, with a version and a checksum;
+ * a file that is there is replaced. After an error the file may be incomplete, which
+ * carvel_stencils_load tells.
+ * path: UTF-8; on Unix any bytes.
+ * Errors: NULL_POINTER, IO. */
+CARVEL_API carvel_status carvel_stencils_save(const carvel_stencils *stencils,
+                                              const char *path, carvel_error *error);
+
+/* Reads a table that carvel_stencils_save wrote, on any machine. Memory is taken as the
+ * file is read, never for what it only promises.
+ * Errors: NULL_POINTER, MISALIGNED, IO; SYNTAX, naming the byte, for a file that is cut
+ * off, changed or another kind of file; UNSUPPORTED for one of a later version;
+ * OUT_OF_RESOURCES. */
+CARVEL_API carvel_status carvel_stencils_load(const char *path, carvel_stencils **out,
+                                              carvel_error *error);
 
 #ifdef __cplusplus
 }

@@ -104,6 +104,7 @@ using Element = carvel_element;
 using Fraction = carvel_fraction;
 using HistogramEntry = carvel_histogram_entry;
 using Origin = carvel_origin;
+using StencilCounts = carvel_stencil_counts;
 using Survey = carvel_survey;
 
 /* The version of the library that is running, such as "0.1.0". */
@@ -667,6 +668,7 @@ inline void destroy(carvel_mesh *object) { carvel_mesh_destroy(object); }
 inline void destroy(carvel_channel *object) { carvel_channel_destroy(object); }
 inline void destroy(carvel_refiner *object) { carvel_refiner_destroy(object); }
 inline void destroy(carvel_hierarchy *object) { carvel_hierarchy_destroy(object); }
+inline void destroy(carvel_stencils *object) { carvel_stencils_destroy(object); }
 
 /* The twins by type. */
 inline carvel_status refine(carvel_refiner *refiner, const carvel_context *context,
@@ -680,6 +682,52 @@ inline carvel_status refine(carvel_refiner *refiner, const carvel_context *conte
                             carvel_refine_output_f64 *output, carvel_error *error)
 {
     return carvel_refiner_refine_f64(refiner, context, input, output, error);
+}
+/* Which of the operations on values. */
+enum class Verb { apply, add, transpose };
+inline carvel_status apply(Verb verb, const carvel_stencils *stencils,
+                           const carvel_context *context, const carvel_const_values_f32 *values,
+                           const carvel_values_f32 *out, carvel_error *error)
+{
+    const auto call = verb == Verb::apply ? carvel_stencils_apply_f32
+                      : verb == Verb::add ? carvel_stencils_apply_add_f32
+                                          : carvel_stencils_apply_transpose_f32;
+    return call(stencils, context, values, out, error);
+}
+inline carvel_status apply(Verb verb, const carvel_stencils *stencils,
+                           const carvel_context *context, const carvel_const_values_f64 *values,
+                           const carvel_values_f64 *out, carvel_error *error)
+{
+    const auto call = verb == Verb::apply ? carvel_stencils_apply_f64
+                      : verb == Verb::add ? carvel_stencils_apply_add_f64
+                                          : carvel_stencils_apply_transpose_f64;
+    return call(stencils, context, values, out, error);
+}
+inline carvel_status update(const carvel_stencils *stencils, const carvel_context *context,
+                            const std::uint32_t *changed, std::uint64_t count,
+                            const carvel_const_values_f32 *values, const carvel_values_f32 *out,
+                            carvel_error *error)
+{
+    return carvel_stencils_update_f32(stencils, context, changed, count, values, out, error);
+}
+inline carvel_status update(const carvel_stencils *stencils, const carvel_context *context,
+                            const std::uint32_t *changed, std::uint64_t count,
+                            const carvel_const_values_f64 *values, const carvel_values_f64 *out,
+                            carvel_error *error)
+{
+    return carvel_stencils_update_f64(stencils, context, changed, count, values, out, error);
+}
+inline carvel_status csr(const carvel_stencils *stencils, std::uint64_t *offsets,
+                         std::uint64_t rows, std::uint32_t *indices, float *weights,
+                         std::uint64_t entries, carvel_error *error)
+{
+    return carvel_stencils_csr_f32(stencils, offsets, rows, indices, weights, entries, error);
+}
+inline carvel_status csr(const carvel_stencils *stencils, std::uint64_t *offsets,
+                         std::uint64_t rows, std::uint32_t *indices, double *weights,
+                         std::uint64_t entries, carvel_error *error)
+{
+    return carvel_stencils_csr_f64(stencils, offsets, rows, indices, weights, entries, error);
 }
 inline carvel_status interpolate(const carvel_hierarchy *hierarchy,
                                  const carvel_context *context, std::uint32_t level,
@@ -1748,6 +1796,203 @@ private:
         if (call.grow(out, (*counts).*size))
             call.status = getter(get(), level, out.data(), (*counts).*size, call.error());
         return call.result(std::move(out));
+    }
+};
+
+/* ==========================================================================
+ * Stencils
+ * ========================================================================== */
+
+/* Which table: carvel_stencils_desc. */
+struct StencilsDesc {
+    std::uint32_t level = 1;
+    std::uint32_t from_level = 0;
+    carvel_precision precision = CARVEL_PRECISION_F32;
+    carvel_interpolation interpolation = CARVEL_INTERPOLATION_VERTEX;
+    /* The vertices that get a row; all if `selects` is false. */
+    Span<const std::uint32_t> vertices = {};
+    bool selects = false;
+};
+
+/* A sparse matrix in CSR form. */
+template <class T>
+struct Csr {
+    std::vector<std::uint64_t> offsets;
+    std::vector<std::uint32_t> indices;
+    std::vector<T> weights;
+};
+
+/* Rows of weights: carvel_stencils. */
+class Stencils : public detail::Handle<carvel_stencils, detail::destroy> {
+public:
+    using Handle::Handle;
+    /* Hands the object over to the caller. */
+    carvel_stencils *release() noexcept { return object_.release(); }
+
+    static Result<Stencils> try_create(const Hierarchy &hierarchy, const StencilsDesc &desc,
+                                       const Context *context = nullptr)
+    {
+        static const std::uint32_t none = 0;
+        detail::Call call;
+        carvel_stencils_desc c = detail::sized<carvel_stencils_desc>();
+        c.from_level = desc.from_level;
+        c.level = desc.level;
+        c.interpolation = static_cast<std::int32_t>(desc.interpolation);
+        c.precision = static_cast<std::int32_t>(desc.precision);
+        if (desc.selects) {
+            c.vertices = desc.vertices.size() == 0 ? &none : desc.vertices.data();
+            c.vertex_count = desc.vertices.size();
+        }
+        carvel_stencils *out = nullptr;
+        call.status = carvel_stencils_create(detail::raw(context), hierarchy.get(), &c, &out,
+                                             call.error());
+        return call.result(Stencils(out));
+    }
+
+    static Result<Stencils> try_load(const char *path)
+    {
+        detail::Call call;
+        carvel_stencils *out = nullptr;
+        call.status = carvel_stencils_load(path, &out, call.error());
+        return call.result(Stencils(out));
+    }
+    Result<void> try_save(const char *path) const
+    {
+        detail::Call call;
+        call.status = carvel_stencils_save(get(), path, call.error());
+        return call.result();
+    }
+
+    /* The table that does what this and then another one do. */
+    Result<Stencils> try_then(const Stencils &next, const Context *context = nullptr) const
+    {
+        detail::Call call;
+        carvel_stencils *out = nullptr;
+        call.status = carvel_stencils_product(detail::raw(context), get(), next.get(), &out,
+                                              call.error());
+        return call.result(Stencils(out));
+    }
+    Result<Stencils> try_transpose(const Context *context = nullptr) const
+    {
+        detail::Call call;
+        carvel_stencils *out = nullptr;
+        call.status =
+            carvel_stencils_transpose(detail::raw(context), get(), &out, call.error());
+        return call.result(Stencils(out));
+    }
+
+    Result<StencilCounts> try_counts() const
+    {
+        detail::Call call;
+        StencilCounts counts = detail::sized<StencilCounts>();
+        call.status = carvel_stencils_counts(get(), &counts, call.error());
+        return call.result(counts);
+    }
+
+    /* The table as arrays, in float or double. */
+    template <class T>
+    Result<Csr<T>> try_csr() const
+    {
+        const Result<StencilCounts> counts = try_counts();
+        if (!counts)
+            return counts.error();
+        detail::Call call;
+        Csr<T> csr;
+        if (call.grow(csr.offsets, counts->rows + 1) && call.grow(csr.indices, counts->entries) &&
+            call.grow(csr.weights, counts->entries))
+            call.status = detail::csr(get(), csr.offsets.data(), counts->rows + 1,
+                                      csr.indices.data(), csr.weights.data(), counts->entries,
+                                      call.error());
+        return call.result(std::move(csr));
+    }
+
+    /* Values by the rows, into your buffer: replaced, added, or by the transpose.
+     * Takes what values() takes, or what values(), rows() and columns() give. */
+    template <class V, class O>
+    Result<void> try_apply(const V &input, O &&out, const Context *context = nullptr) const
+    {
+        return run(detail::Verb::apply, input, out, context);
+    }
+    template <class V, class O>
+    Result<void> try_apply_add(const V &input, O &&out, const Context *context = nullptr) const
+    {
+        return run(detail::Verb::add, input, out, context);
+    }
+    template <class V, class O>
+    Result<void> try_apply_transpose(const V &input, O &&out,
+                                     const Context *context = nullptr) const
+    {
+        return run(detail::Verb::transpose, input, out, context);
+    }
+
+    /* The rows that depend on some columns, again. */
+    template <class V, class O>
+    Result<void> try_update(Span<const std::uint32_t> changed, const V &input, O &&out,
+                            const Context *context = nullptr) const
+    {
+        const ConstValues from = values(input);
+        const Values to = values(out);
+        detail::Call call;
+        call.status = detail::update(get(), detail::raw(context), changed.data(), changed.size(),
+                                     &from, &to, call.error());
+        return call.result();
+    }
+
+#if CARVEL_HPP_THROWS
+    static Stencils create(const Hierarchy &hierarchy, const StencilsDesc &desc,
+                           const Context *context = nullptr)
+    {
+        return try_create(hierarchy, desc, context).value();
+    }
+    static Stencils load(const char *path) { return try_load(path).value(); }
+    void save(const char *path) const { try_save(path).value(); }
+    Stencils then(const Stencils &next, const Context *context = nullptr) const
+    {
+        return try_then(next, context).value();
+    }
+    Stencils transpose(const Context *context = nullptr) const
+    {
+        return try_transpose(context).value();
+    }
+    StencilCounts counts() const { return try_counts().value(); }
+    template <class T>
+    Csr<T> csr() const
+    {
+        return try_csr<T>().value();
+    }
+    template <class V, class O>
+    void apply(const V &input, O &&out, const Context *context = nullptr) const
+    {
+        try_apply(input, out, context).value();
+    }
+    template <class V, class O>
+    void apply_add(const V &input, O &&out, const Context *context = nullptr) const
+    {
+        try_apply_add(input, out, context).value();
+    }
+    template <class V, class O>
+    void apply_transpose(const V &input, O &&out, const Context *context = nullptr) const
+    {
+        try_apply_transpose(input, out, context).value();
+    }
+    template <class V, class O>
+    void update(Span<const std::uint32_t> changed, const V &input, O &&out,
+                const Context *context = nullptr) const
+    {
+        try_update(changed, input, out, context).value();
+    }
+#endif
+
+private:
+    template <class V, class O>
+    Result<void> run(detail::Verb verb, const V &input, O &&out, const Context *context) const
+    {
+        const ConstValues from = values(input);
+        const Values to = values(out);
+        detail::Call call;
+        call.status =
+            detail::apply(verb, get(), detail::raw(context), &from, &to, call.error());
+        return call.result();
     }
 };
 

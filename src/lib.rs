@@ -10,9 +10,11 @@ pub mod io;
 pub mod mesh;
 pub mod refine;
 pub mod scheme;
+pub mod sparse;
 
 pub use base::{Context, Crease, Element, Error, ErrorKind, Fraction, Result, SharpVertex};
 pub use hierarchy::{Attribute, ChannelOutput, FaceVarying, Hierarchy, Interpolation, Output};
-pub use hierarchy::{Prediction, Refined, RefinedChannel, Refiner, Task};
+pub use hierarchy::{Prediction, Refined, RefinedChannel, Refiner, StencilTask, Task};
 pub use mesh::{Channel, FaceVaryingMode, Mesh};
 pub use scheme::{Boundary, CornerRule, Creasing, LoopWeights, Scheme, SplitKind, TriangleRule};
+pub use sparse::{Records, RecordsMut, StencilTable, StoredTable};

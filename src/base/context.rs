@@ -211,8 +211,18 @@ impl Context {
         width: usize,
         work: impl Fn(usize, &mut [T]) + Sync + Send,
     ) -> Result<()> {
-        let len = self.chunk_len(out.len() / width.max(1));
-        let parts: Vec<_> = out.chunks_mut(len * width.max(1)).enumerate().collect();
+        self.fill_records(out, width.max(1), work)
+    }
+
+    /// The same for records `stride` values apart; the last one may be shorter.
+    pub(crate) fn fill_records<T: Send>(
+        &self,
+        out: &mut [T],
+        stride: usize,
+        work: impl Fn(usize, &mut [T]) + Sync + Send,
+    ) -> Result<()> {
+        let len = self.chunk_len(out.len().div_ceil(stride));
+        let parts: Vec<_> = out.chunks_mut(len.saturating_mul(stride)).enumerate().collect();
         self.for_each(parts, |(i, part)| work(i * len, part))
     }
 }

@@ -50,6 +50,17 @@ pub(crate) fn extend<T>(list: &mut Vec<T>, items: impl IntoIterator<Item = T>) -
     Ok(())
 }
 
+/// Makes room for more values; a list that grows again and again grows by large steps.
+pub(crate) fn grow<T>(list: &mut Vec<T>, additional: usize) -> Result<()> {
+    if list.capacity() - list.len() >= additional {
+        return Ok(());
+    }
+    list.try_reserve(additional)
+        .map_err(|_| refused::<T>(list.len().saturating_add(additional)))?;
+    prefer_huge(list);
+    Ok(())
+}
+
 /// A copy of a slice.
 pub(crate) fn copied<T: Copy>(slice: &[T]) -> Result<Vec<T>> {
     let mut list = reserved(slice.len())?;

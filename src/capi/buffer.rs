@@ -196,6 +196,15 @@ impl Span {
         Self { start, record, period: record, count, written, name: name.into() }
     }
 
+    /// All bytes from the first record to the last.
+    pub(super) fn hull(self) -> Self {
+        if self.count == 0 {
+            return self;
+        }
+        let record = self.end() - self.start;
+        Self { record, period: record, count: 1, ..self }
+    }
+
     fn end(&self) -> usize {
         self.start + (self.count - 1) * self.period + self.record
     }

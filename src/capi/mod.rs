@@ -33,6 +33,7 @@ mod refine_desc;
 mod refiner;
 mod scheme;
 mod status;
+mod stencils;
 mod values;
 mod versioned;
 
@@ -47,4 +48,5 @@ pub use refine_desc::*;
 pub use refiner::*;
 pub use scheme::*;
 pub use status::*;
+pub use stencils::*;
 pub use values::*;

@@ -9,6 +9,7 @@
 //! | `carvel_channel` | box | by reference |
 //! | `carvel_refiner` | box around a lock | one call at a time |
 //! | `carvel_hierarchy` | box | by reference |
+//! | `carvel_stencils` | box | by reference; what it makes when first asked is kept |
 
 use super::status::{
     CARVEL_STATUS_MISALIGNED, CARVEL_STATUS_POISONED, Fault, Result, carvel_status,

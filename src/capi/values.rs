@@ -8,6 +8,7 @@ use super::status::{
 };
 use crate::base::{Scalar, memory};
 use crate::hierarchy::{Interpolation, WIDEST};
+use crate::sparse;
 
 #[repr(C)]
 #[derive(Debug, Clone, Copy)]
@@ -137,6 +138,24 @@ fn check_records<T>(
 }
 
 impl<P> Records<P> {
+    /// Values from the first record to the end of the last, gaps counted in.
+    fn reach<T>(&self) -> usize {
+        let before = self.count.saturating_sub(1) * (self.stride / size_of::<T>());
+        if self.count == 0 { 0 } else { before + self.width }
+    }
+
+    /// The stride in values, of which it need not be a multiple where doubles are
+    /// aligned to four bytes.
+    fn stride_in_values<T>(&self) -> Result<usize> {
+        if self.stride.is_multiple_of(size_of::<T>()) {
+            return Ok(self.stride / size_of::<T>());
+        }
+        Err(Fault::new(
+            CARVEL_STATUS_MISALIGNED,
+            format!("{}: a stride of {} is no multiple of a value", self.name, self.stride),
+        ))
+    }
+
     fn len(&self) -> usize {
         self.count * self.width
     }
@@ -202,6 +221,40 @@ impl<T: Scalar> Records<*const T> {
             record.copy_from_slice(from);
         }
         Ok(Source::Copied(values))
+    }
+}
+
+impl<T: Scalar> Records<*const T> {
+    /// The records where they are, gaps and all.
+    ///
+    /// # Safety
+    /// Everything from the first record to the last can be read, and is not written, as
+    /// long as the result lives.
+    pub(super) unsafe fn strided<'a>(&self) -> Result<sparse::Records<'a, T>> {
+        let (stride, width, len) = (self.stride_in_values::<T>()?, self.width, self.reach::<T>());
+        if len == 0 {
+            return Ok(sparse::Records { values: &[], width, stride });
+        }
+        // SAFETY: checked by `check`; the rest is the contract.
+        let values = unsafe { std::slice::from_raw_parts(self.data, len) };
+        Ok(sparse::Records { values, width, stride })
+    }
+}
+
+impl<T: Scalar> Records<*mut T> {
+    /// The records where they are, gaps and all.
+    ///
+    /// # Safety
+    /// Everything from the first record to the last can be written, and is not used
+    /// otherwise, as long as the result lives.
+    pub(super) unsafe fn strided<'a>(&self) -> Result<sparse::RecordsMut<'a, T>> {
+        let (stride, width, len) = (self.stride_in_values::<T>()?, self.width, self.reach::<T>());
+        if len == 0 {
+            return Ok(sparse::RecordsMut { values: &mut [], width, stride });
+        }
+        // SAFETY: checked by `check`; the rest is the contract.
+        let values = unsafe { std::slice::from_raw_parts_mut(self.data, len) };
+        Ok(sparse::RecordsMut { values, width, stride })
     }
 }
 

@@ -247,7 +247,12 @@ impl Hierarchy {
         self.split(&Context::serial(), before, &mut EdgeNumbers::default())
     }
 
-    fn split(&self, context: &Context, level: u32, memory: &mut EdgeNumbers) -> Result<Split<'_>> {
+    pub(super) fn split(
+        &self,
+        context: &Context,
+        level: u32,
+        memory: &mut EdgeNumbers,
+    ) -> Result<Split<'_>> {
         self.scheme.plan(context, self.mesh(level), memory)
     }
 }

@@ -17,6 +17,10 @@ mod predict;
 mod primal_kernel;
 mod primal_step;
 mod refiner;
+mod stencil_build;
+mod stencil_regular;
+mod stencil_rows;
+mod stencils;
 mod step;
 mod values;
 
@@ -28,6 +32,7 @@ pub use creases_left::creases_left;
 pub use levels::Hierarchy;
 pub use predict::Prediction;
 pub use refiner::{Attribute, Output, Refined, Refiner, Task};
+pub use stencils::StencilTask;
 pub use step::Interpolation;
 #[cfg(feature = "capi")]
 pub(crate) use values::WIDEST;

@@ -12,6 +12,7 @@ mod files;
 mod refined;
 mod rows;
 mod schemes;
+mod stencils;
 #[path = "../kernel/support/tolerance.rs"]
 #[allow(dead_code, reason = "one table for all tests")]
 mod tolerance;

@@ -66,7 +66,7 @@ fn apply_stage(
 }
 
 /// True if every scheme can refine the case's coordinates.
-fn is_finite(case: &Case) -> bool {
+pub fn is_finite(case: &Case) -> bool {
     let refused = Outcome::Error("NotFinite".to_owned());
     case.may_fail.is_none() && *case.expected("") != refused
 }

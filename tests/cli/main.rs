@@ -15,5 +15,6 @@ mod places;
 mod primal;
 mod refined;
 mod spot;
+mod stencils;
 mod texture;
 mod usage;

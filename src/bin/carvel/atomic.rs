@@ -4,8 +4,9 @@
 
 use carvel::{Error, Result};
 use std::fs;
-use std::io::{self, Write, stdout};
-use std::path::Path;
+use std::io::{self, BufWriter, Cursor, Seek, Write, stdout};
+use std::path::{Path, PathBuf};
+use tempfile::NamedTempFile;
 
 /// Writes bytes to a path: `-` is the standard output, devices and pipes are
 /// written directly, anything else is replaced when the new file is complete.
@@ -22,6 +23,29 @@ pub fn write(path: &Path, bytes: &[u8]) -> Result<()> {
     result.map_err(|e| Error::io(crate::text::one_line(&path.display().to_string()), e))
 }
 
+/// Anything that a matrix can be written to.
+pub trait Sink: Write + Seek {}
+
+impl<S: Write + Seek> Sink for S {}
+
+/// The same for what is too large to be made first: only streams and devices are written
+/// from memory.
+pub fn write_with(path: &Path, fill: impl FnOnce(&mut dyn Sink) -> Result<()>) -> Result<()> {
+    let meta = fs::metadata(path);
+    if path.as_os_str() == "-" || meta.as_ref().is_ok_and(|meta| !meta.is_file()) {
+        let mut bytes = Cursor::new(Vec::new());
+        fill(&mut bytes)?;
+        return write(path, bytes.get_ref());
+    }
+    let name = || crate::text::one_line(&path.display().to_string());
+    let place = beside(path, meta.ok().map(|meta| meta.permissions()));
+    let (file, path) = place.map_err(|e| Error::io(name(), e))?;
+    let mut out = BufWriter::new(file);
+    fill(&mut out)?;
+    let file = out.into_inner().map_err(|e| Error::io(name(), e.into_error()))?;
+    file.persist(path).map(drop).map_err(|e| Error::io(name(), e.error))
+}
+
 fn to_stdout(bytes: &[u8]) -> io::Result<()> {
     let mut out = stdout().lock();
     out.write_all(bytes)?;
@@ -29,10 +53,20 @@ fn to_stdout(bytes: &[u8]) -> io::Result<()> {
 }
 
 fn replace(path: &Path, permissions: Option<fs::Permissions>, bytes: &[u8]) -> io::Result<()> {
+    let (mut file, path) = beside(path, permissions)?;
+    file.write_all(bytes)?;
+    file.persist(path).map(drop).map_err(|e| e.error)
+}
+
+/// A new file that can take the place of one, and that place.
+fn beside(
+    path: &Path,
+    permissions: Option<fs::Permissions>,
+) -> io::Result<(NamedTempFile, PathBuf)> {
     // Through a symbolic link to the file itself, which must be writable.
-    let path = &if permissions.is_some() { fs::canonicalize(path)? } else { path.to_path_buf() };
+    let path = if permissions.is_some() { fs::canonicalize(path)? } else { path.to_path_buf() };
     if permissions.is_some() {
-        fs::OpenOptions::new().write(true).open(path)?;
+        fs::OpenOptions::new().write(true).open(&path)?;
     }
     let directory = path.parent().filter(|p| !p.as_os_str().is_empty());
     let mut builder = tempfile::Builder::new();
@@ -42,9 +76,8 @@ fn replace(path: &Path, permissions: Option<fs::Permissions>, bytes: &[u8]) -> i
     }
     // The reason alone, without the temporary name that tempfile adds.
     let bare = |e: io::Error| io::Error::from(e.kind());
-    let mut file = builder.tempfile_in(directory.unwrap_or(Path::new("."))).map_err(bare)?;
-    file.write_all(bytes)?;
-    file.persist(path).map(drop).map_err(|e| e.error)
+    let file = builder.tempfile_in(directory.unwrap_or(Path::new("."))).map_err(bare)?;
+    Ok((file, path))
 }
 
 /// What a file created without further ado would get; the user's mask applies.

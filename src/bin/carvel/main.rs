@@ -9,7 +9,8 @@
 //! | `console` | every line and the progress bar on the standard error stream |
 //! | `input`, `places` | what is read, and where results go |
 //! | `faults` | mistakes in a mesh, as lines of its file |
-//! | `subdivide`, `info`, `picture` | the three commands |
+//! | `subdivide`, `info`, `picture`, `stencils` | the four commands |
+//! | `topology`, `matrix` | control meshes as asked for; stencil tables as files |
 //! | `refine`, `precise` | one refinement with all its data |
 //! | `carry`, `seams` | vertex data, and names of faces |
 //! | `texture`, `tags` | texture coordinates with seams; creases and sharp vertices |
@@ -29,6 +30,7 @@ mod holes;
 mod info;
 mod input;
 mod interrupt;
+mod matrix;
 mod memory;
 mod picture;
 mod places;
@@ -39,10 +41,12 @@ mod refine;
 mod report;
 mod seams;
 mod session;
+mod stencils;
 mod subdivide;
 mod tags;
 mod text;
 mod texture;
+mod topology;
 
 use args::{Cli, Command};
 use clap::Parser;
@@ -74,6 +78,7 @@ fn main() -> ExitCode {
         Some(Command::Subdivide(args)) => subdivide::run(args),
         Some(Command::Info(args)) => info::run(args),
         Some(Command::Preview(args)) => picture::run(args),
+        Some(Command::Stencils(args)) => stencils::run(args),
     };
     exit.unwrap_or_else(|failure| Console::plain().failure(&failure)).into()
 }

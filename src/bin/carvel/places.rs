@@ -137,7 +137,8 @@ fn file_name(input: &Path) -> Result<&Path, Failure> {
     name.ok_or_else(|| Failure::usage(format!("{}: not the name of a file", shown(input))))
 }
 
-fn require_parent(path: &Path) -> Result<(), Failure> {
+/// Refuses a place in a directory that is not there.
+pub fn require_parent(path: &Path) -> Result<(), Failure> {
     match path.parent() {
         Some(parent) if !parent.as_os_str().is_empty() && !parent.is_dir() => {
             let message = format!("{}: there is no directory {}", shown(path), shown(parent));

@@ -140,7 +140,8 @@ fn describe(report: &mut Map<String, Value>, done: &Done) {
     report.insert("notes".to_owned(), json!(done.notes));
 }
 
-fn scheme(chosen: &Chosen) -> Value {
+/// A scheme with its options.
+pub fn scheme(chosen: &Chosen) -> Value {
     let passes: Vec<_> = chosen.scheme.passes().iter().map(ToString::to_string).collect();
     let mut scheme = Map::new();
     scheme.insert("name".to_owned(), json!(chosen.name));

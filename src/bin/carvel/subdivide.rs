@@ -8,13 +8,14 @@ use crate::picture;
 use crate::places::{self, Job, Wish};
 use crate::precise::Precise;
 use crate::preview::View;
-use crate::refine::{Engine, Outcome, Work, positions, predict};
+use crate::refine::{Engine, Outcome, Work, predict};
 use crate::report::{self, Done, Level, Seconds, Settings};
 use crate::session::Session;
 use crate::tags;
 use crate::text::counted;
+use crate::topology::Asked;
 use carvel::io::{self, Format, MeshFile, SchemeTags, WriteOptions};
-use carvel::mesh::{BuildOptions, Built, build};
+use carvel::mesh::{BuildOptions, Built};
 use serde_json::Value;
 use std::fs;
 use std::time::{Duration, Instant};
@@ -143,7 +144,7 @@ impl Run<'_> {
         // The topology is wanted for its counts only; what has none is converted too.
         let built = if self.args.json {
             let options = BuildOptions { anchored: self.args.anchored, ..Default::default() };
-            timed(&mut seconds.build, || self.build(&input, &options)).ok()
+            timed(&mut seconds.build, || self.asked().build(self.session, &input, &options)).ok()
         } else {
             None
         };
@@ -161,11 +162,18 @@ impl Run<'_> {
         Ok(Made { file, chosen, levels: vec![level], anchored, scratch: None, holes: 0, notes })
     }
 
+    /// What is asked of control meshes.
+    fn asked(&self) -> Asked<'_> {
+        let SubdivideArgs { anchored, non_manifold, creases, .. } = self.args;
+        Asked { anchored: *anchored, non_manifold: *non_manifold, creases }
+    }
+
     fn refine(&mut self, input: &Input, seconds: &mut Seconds) -> Result<Made, Failure> {
         let of_work = |e: carvel::Error| faults::of_work(input, &e);
         let chosen = self.args.scheme.choose(input.file.scheme)?;
         self.session.console.phase("building", &input.name);
-        let built = timed(&mut seconds.build, || self.build_for(input, &chosen))?;
+        let built =
+            timed(&mut seconds.build, || self.asked().build_for(self.session, input, &chosen))?;
         let levels = self.args.levels;
         let plan = predict(&built.mesh, &chosen.scheme, levels).map_err(of_work)?;
         self.session.console.phase("refining", &input.name);
@@ -190,29 +198,6 @@ impl Run<'_> {
     }
 
     /// Builds the mesh with the tags that mean something to the scheme.
-    fn build_for(&self, input: &Input, chosen: &Chosen) -> Result<Built, Failure> {
-        let file = &input.file;
-        if !chosen.has_features() {
-            let options = BuildOptions { anchored: self.args.anchored, ..Default::default() };
-            return self.build(input, &options);
-        }
-        let built = self.build(input, &tags::build_options(file, &file.creases))?;
-        let Some(degrees) = self.args.creases.angle() else { return Ok(built) };
-        // Angles are known once it is known which faces meet.
-        let (points, sharpness) = (positions(file, &built), self.args.creases.sharpness());
-        let creases = tags::with_creases_by_angle(file, &built, &points, degrees, sharpness);
-        let creases = creases.map_err(|e| faults::of_work(input, &e))?;
-        self.build(input, &tags::build_options(file, &creases))
-    }
-
-    fn build(&self, input: &Input, options: &BuildOptions) -> Result<Built, Failure> {
-        let file = &input.file;
-        let options = BuildOptions { non_manifold: self.args.non_manifold.into(), ..*options };
-        let (sizes, vertices) = (&file.face_sizes, &file.face_vertices);
-        build(&self.session.context, file.positions.len(), sizes, vertices, &options)
-            .map_err(|defects| faults::failure(input, &defects))
-    }
-
     /// Tells what was lost, one line each. (A failure has its one line alone.)
     fn tell(&self, job: &Job, made: &Made) -> Vec<String> {
         let mut notes = made.notes.clone();

@@ -63,6 +63,12 @@ fn hierarchies_keep_all_levels() {
 }
 
 #[test]
+fn stencil_tables_do_what_hierarchies_do() {
+    let file = work_directory("stencil file").join("table");
+    run_with_both("stencils", &[&file]);
+}
+
+#[test]
 fn primal_schemes_and_tags_do_as_opensubdiv_says() {
     run_with_both("primal", &[]);
 }

@@ -4,10 +4,12 @@ mod crease;
 mod names;
 mod owners;
 mod scheme;
+mod stencils;
 mod view;
 
 pub use crease::CreaseArgs;
 pub use scheme::{Chosen, SchemeArgs};
+pub use stencils::{MatrixFormat, StencilArgs};
 pub use view::ViewArgs;
 
 use crate::{exit, memory};
@@ -35,6 +37,8 @@ pub enum Command {
     Info(InfoArgs),
     /// Draw meshes as PNG pictures; several side by side, by one camera.
     Preview(PreviewArgs),
+    /// Write the weights of refined vertices on control vertices as a sparse matrix.
+    Stencils(Box<StencilArgs>),
 }
 
 /// Options of `carvel subdivide`.
