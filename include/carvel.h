@@ -1067,7 +1067,7 @@ typedef struct carvel_indices {
  * carvel_refiner: one-shot, the faces and values of level n
  *
  * Keeps its scratch memory from call to call, so that refining the same mesh
- * again touches no fresh page. One call at a time; give each thread its own.
+ * again touches hardly a fresh page. One call at a time; give each thread its own.
  * To evaluate new positions on fixed topology, or for several levels, see
  * carvel_hierarchy.
  * ========================================================================== */

@@ -7,8 +7,10 @@ use bytemuck::Zeroable;
 
 /// An array of zeros. Large ones are untouched pages straight from the system.
 pub(crate) fn zeroed<T: Zeroable>(len: usize) -> Result<Vec<T>> {
-    let room = roomy::<T>(len);
-    let mut list = bytemuck::allocation::try_zeroed_vec(room).map_err(|()| refused::<T>(len))?;
+    let list = bytemuck::allocation::try_zeroed_vec(roomy::<T>(len));
+    // More than was asked for must not fail where that would not.
+    let list = list.or_else(|()| bytemuck::allocation::try_zeroed_vec(len));
+    let mut list = list.map_err(|()| refused::<T>(len))?;
     prefer_huge(&mut list);
     list.truncate(len);
     Ok(list)
@@ -24,7 +26,8 @@ pub(crate) fn filled<T: Copy>(value: T, len: usize) -> Result<Vec<T>> {
 /// An empty array with room for `len` values.
 pub(crate) fn reserved<T>(len: usize) -> Result<Vec<T>> {
     let mut list = Vec::new();
-    list.try_reserve_exact(roomy::<T>(len)).map_err(|_| refused::<T>(len))?;
+    let roomy = list.try_reserve_exact(roomy::<T>(len));
+    roomy.or_else(|_| list.try_reserve_exact(len)).map_err(|_| refused::<T>(len))?;
     prefer_huge(&mut list);
     Ok(list)
 }

@@ -7,9 +7,11 @@
 
 /// The size of a huge page on most machines; where it is another one, nothing is lost but
 /// the advice.
+#[cfg(target_os = "linux")]
 const HUGE: usize = 2 << 20;
 
 /// Room for what an allocator writes in front of a large array.
+#[cfg(target_os = "linux")]
 const HEADER: usize = 64;
 
 /// Arrays of fewer bytes stay as they are.
@@ -20,7 +22,8 @@ const LARGE: usize = 256 << 10;
 ///
 /// Linux puts a mapping of whole huge pages where huge pages begin; others cost small
 /// pages at both ends. So a large array gets whole ones if that adds no more than
-/// half.
+/// half, 2 MiB at most.
+#[cfg(target_os = "linux")]
 pub(super) fn roomy<T>(len: usize) -> usize {
     let bytes = len.saturating_mul(size_of::<T>());
     if bytes < HUGE || bytes > isize::MAX as usize - 2 * HUGE {
@@ -30,7 +33,13 @@ pub(super) fn roomy<T>(len: usize) -> usize {
     if whole - bytes <= bytes / 2 { whole / size_of::<T>() } else { len }
 }
 
-/// Asks for huge pages behind an array that was not touched yet. A system that refuses
+/// As long as asked for.
+#[cfg(not(target_os = "linux"))]
+pub(super) fn roomy<T>(len: usize) -> usize {
+    len
+}
+
+/// Asks for huge pages behind an array, best before it is touched. A system that refuses
 /// says so to nobody: the array is as good as before.
 ///
 /// Also for arrays that hold no whole huge page: large ones lie next to each other, and
@@ -51,9 +60,16 @@ pub(super) fn prefer_huge<T>(array: &mut Vec<T>) {
         libc::madvise(start.wrapping_sub(before).cast(), whole, libc::MADV_HUGEPAGE);
     }
     let before = start.addr() % HUGE;
-    if before <= HEADER && before + bytes >= HUGE {
+    if before <= HEADER && before + bytes >= HUGE && huge_pages_are_on() {
         join_pages(start.wrapping_sub(before));
     }
+}
+
+/// False where the system's owner wants none: joining pages would not ask.
+#[cfg(target_os = "linux")]
+fn huge_pages_are_on() -> bool {
+    let setting = std::fs::read_to_string("/sys/kernel/mm/transparent_hugepage/enabled");
+    setting.is_ok_and(|setting| !setting.contains("[never]"))
 }
 
 /// Makes one page of small ones. The allocator has written in front of the array, so that
@@ -62,7 +78,7 @@ pub(super) fn prefer_huge<T>(array: &mut Vec<T>) {
 fn join_pages(start: *mut u8) {
     /// Since Linux 6.1; older ones refuse it.
     const MADV_COLLAPSE: libc::c_int = 25;
-    // SAFETY: as above; what the pages hold is kept.
+    // SAFETY: the pages are mapped and hold the array; what they hold is kept.
     unsafe {
         libc::madvise(start.cast(), HUGE, MADV_COLLAPSE);
     }

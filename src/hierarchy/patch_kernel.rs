@@ -40,14 +40,10 @@ impl<'v, T: Scalar, const W: usize> PatchKernel<'v, T, W> {
         fans: &'v FanValues<T>,
     ) -> Result<Self> {
         let mut masks = masks.clone();
-        let regular = match patches.pieces() {
-            Pieces::Quads => 4,
-            Pieces::Triangles => 6,
-        };
         let edge = masks.edge(0);
         let rules = Rules {
             edge: [edge.end, edge.beside].map(T::from_f64),
-            vertex: weights(&masks.vertex(regular)),
+            vertex: weights(&masks.vertex(patches.pieces().valence())),
         };
         let zero = T::lanes([T::default(); 4]);
         let (from, to) = (patch_array(zero)?, patch_array(zero)?);
@@ -138,6 +134,7 @@ impl<'v, T: Scalar, const W: usize> PatchKernel<'v, T, W> {
             (Pieces::Quads, false) if ring => refine_quads::<T, N, true>(self.rules, from, to),
             (Pieces::Quads, false) => refine_quads::<T, N, false>(self.rules, from, to),
             (Pieces::Quads, true) => bisect_quads::<T, N>(self.rules, from, to),
+            (Pieces::Triangles, true) => bisect_triangles::<T, N>(self.rules, from, to),
             (Pieces::Triangles, _) if ring => refine_triangles::<T, N, true>(self.rules, from, to),
             (Pieces::Triangles, _) => refine_triangles::<T, N, false>(self.rules, from, to),
         }
@@ -156,7 +153,7 @@ impl<'v, T: Scalar, const W: usize> PatchKernel<'v, T, W> {
             if !fans.contains(patches.parent().vert[corner as usize]) {
                 continue;
             }
-            let Some(slot) = fans.slot(corner) else { continue };
+            let slot = fans.slot(corner);
             let level = level as usize;
             self.from[within(frame.own[i])] = self.fans.own(level, fans.owner(slot));
             self.from[within(frame.second[i])] = self.fans.near(level, fans.turn(slot, 2));
@@ -244,6 +241,36 @@ fn bisect_quads<T: Scalar, const N: usize>(
         }
         for x in 1..end {
             out[2 * x] = face_mean::<T, _>([low[x], low[x + 1], high[x + 1], high[x]]);
+        }
+    }
+}
+
+/// One linear step on half an array; the ring is left alone.
+#[inline(never)]
+fn bisect_triangles<T: Scalar, const N: usize>(
+    rules: Rules<T>,
+    from: &[T::Lanes],
+    to: &mut [T::Lanes],
+) {
+    let (wide, new) = (N + 3, 2 * N + 3);
+    let (from, to) = (&from[..wide * wide], &mut to[..new * new]);
+    let (half, end) = (rules.edge[0], N + 1);
+    for y in 1..N + 2 {
+        let own = row(from, y, wide);
+        let out = &mut to[(2 * y - 1) * new..2 * y * new];
+        for x in 1..=N + 2 - y {
+            out[2 * x - 1] = own[x];
+        }
+        for x in 1..=end - y {
+            out[2 * x] = (own[x] + own[x + 1]) * half;
+        }
+    }
+    for y in 1..end {
+        let (low, high) = (row(from, y, wide), row(from, y + 1, wide));
+        let out = &mut to[2 * y * new..(2 * y + 1) * new];
+        for x in 1..=end - y {
+            out[2 * x - 1] = (low[x] + high[x]) * half;
+            out[2 * x] = (low[x + 1] + high[x]) * half;
         }
     }
 }

@@ -1,8 +1,8 @@
 //! What a refinement will cost, before anything is built.
 
-use crate::base::{Error, ErrorKind, Result};
+use crate::base::{Error, ErrorKind, NONE, Result};
 use crate::mesh::{Channel, Mesh};
-use crate::refine::{Counts, DEEPEST, Patches, PrimalSplit};
+use crate::refine::{Counts, DEEPEST, Patches, Pieces, PrimalSplit};
 use crate::scheme::{Scheme, SplitKind};
 
 /// The largest number of levels, for meshes that do not grow out of bounds
@@ -17,8 +17,9 @@ pub struct Prediction {
     primal: bool,
     /// Sharp edges, sides of joints and faces of holes of the control mesh.
     features: [u64; 2],
-    /// Levels that are done in one step.
+    /// Levels that are done in one step, and the corners at extraordinary vertices then.
     patches: u32,
+    slots: u64,
 }
 
 impl Prediction {
@@ -55,8 +56,13 @@ impl Prediction {
         let edges = mesh.sharpness.edges.len() + mesh.joints.sides.len();
         let features = [edges as u64, mesh.holes.len() as u64];
         let patches = patch_depth(mesh, scheme, &counts);
+        let steps = levels > patches;
+        let slots = match patches {
+            0 => 0,
+            _ => extraordinary_corners(mesh, scheme.pieces(), steps),
+        };
         let passes = scheme.passes().len();
-        Ok(Self { levels: counts, passes, primal, features, patches })
+        Ok(Self { levels: counts, passes, primal, features, patches, slots })
     }
 
     /// Predicts the values of a face-varying channel: they are what the counts call
@@ -71,7 +77,8 @@ impl Prediction {
     }
 
     /// How many of the last levels are done in one step, patch by patch; 0 if they are not.
-    pub(crate) fn patch_depth(&self) -> u32 {
+    #[doc(hidden)]
+    pub fn patch_depth(&self) -> u32 {
         self.patches
     }
 
@@ -115,7 +122,11 @@ impl Prediction {
         }
         let faces = self.levels.iter().map(|counts| counts.faces);
         let sources = if face_sources { faces.fold(0, u64::saturating_add) } else { 0 };
-        self.scratch_bytes(width, size).saturating_add(sources.saturating_mul(4))
+        let scratch = match self.patches {
+            0 => self.scratch_bytes(width, size),
+            depth => self.patch_bytes(depth, width, size),
+        };
+        scratch.saturating_add(sources.saturating_mul(4))
     }
 
     /// Bytes of the adjacency of all levels but the first; all byte counts stop at
@@ -154,13 +165,13 @@ impl Prediction {
         saturate(faces.saturating_add(value_bytes(last.vertices, width, size)))
     }
 
-    /// Bytes that a refiner needs beside its output: topology of the levels in between, and
-    /// `width` values of `size` bytes on each of their vertices; where the last levels of a
-    /// closed mesh are done in one step, those of the levels before it.
+    /// Bytes that the levels in between need while the last one is written:
+    /// topology, and `width` values of `size` bytes on each of their vertices. A refiner that
+    /// does the last levels of a closed mesh in one step needs less.
     /// Records wider than xyz and four more may pass through a copy of the last
     /// level, which is counted in.
     pub fn scratch_bytes(&self, width: u64, size: u64) -> u64 {
-        let inner = &self.levels[..self.levels.len() - self.patches.max(1) as usize];
+        let inner = &self.levels[..self.levels.len() - 1];
         let topology: u128 = inner.iter().skip(1).map(topology_bytes).sum();
         // Places of child quads, for the levels that get a child mesh.
         let places: u128 = inner.iter().rev().skip(1).map(|c| u128::from(c.corners)).sum();
@@ -175,11 +186,25 @@ impl Prediction {
         let copies = if width > 7 { last } else { 0 };
         let edges = inner.last().map_or(0, |counts| self.edge_bytes(counts));
         let features = self.feature_bytes(inner.len());
-        let patches = match inner.last() {
-            Some(parent) if self.patches > 0 => patch_bytes(parent, width, size),
-            _ => 0,
-        };
-        let parts = [topology, places, values, stages, copies, edges, features, patches];
+        let parts = [topology, places, values, stages, copies, edges, features];
+        saturate(parts.into_iter().fold(0, u128::saturating_add))
+    }
+
+    /// The same where the last levels are done in one step: the levels before it; which sides
+    /// each patch leads, what its corners become, tables and arrays; the corners of
+    /// extraordinary vertices, with four lanes of their neighbours for each level.
+    fn patch_bytes(&self, depth: u32, width: u64, size: u64) -> u64 {
+        const TABLES: u64 = 512 << 10;
+        let levels = self.levels[..self.levels.len() - depth as usize].to_vec();
+        let parent = levels[levels.len() - 1];
+        let before = Self { levels, patches: 0, ..*self };
+        let own = before.scratch_bytes(width, size);
+        let parent_values = value_bytes(parent.vertices, width, size);
+        let topology = if before.levels.len() > 1 { topology_bytes(&parent) } else { 0 };
+        let patches = 5 * u128::from(parent.faces) + value_bytes(parent.corners, width, size);
+        let each = 16 + 4 * u128::from(size) * u128::from(depth + 4);
+        let fans = u128::from(self.slots) * each;
+        let parts = [u128::from(own), parent_values, topology, patches, fans, u128::from(TABLES)];
         saturate(parts.into_iter().fold(0, u128::saturating_add))
     }
 }
@@ -203,12 +228,20 @@ fn patch_depth(mesh: &Mesh, scheme: &Scheme, levels: &[Counts]) -> u32 {
     (2..=DEEPEST.min(last as u32)).rev().find(fits).unwrap_or(0)
 }
 
-/// What patches need beside their parent: which sides each leads, what its corners become,
-/// and a share of their tables and fans.
-fn patch_bytes(parent: &Counts, width: u64, size: u64) -> u128 {
-    const TABLES: u128 = 256 << 10;
-    let sides = 5 * u128::from(parent.faces);
-    sides.saturating_add(value_bytes(parent.corners, width, size)).saturating_add(TABLES)
+/// The corners at the extraordinary vertices of a closed mesh, with those of the middles of
+/// its odd faces where there is a step before.
+fn extraordinary_corners(mesh: &Mesh, pieces: Pieces, steps: bool) -> u64 {
+    let valences = |vertices: &mut dyn Iterator<Item = usize>, regular: usize| {
+        let valences = vertices.map(|v| if mesh.start[v] == NONE { 0 } else { mesh.valence(v) });
+        valences.filter(|&n| n != regular).sum::<usize>() as u64
+    };
+    if pieces == Pieces::Triangles {
+        return valences(&mut (0..mesh.vertices()), 6);
+    }
+    let layout = &mesh.layout;
+    let odd = if layout.side() == 4 { layout.irregular_corners() } else { layout.corners() };
+    let special = &mut mesh.special.iter().map(|&v| v as usize);
+    valences(special, 4) + if steps { u64::from(odd) } else { 0 }
 }
 
 fn saturate(bytes: u128) -> u64 {

@@ -215,10 +215,7 @@ impl<'v, T: Scalar, const W: usize> VertexKernel<'v, T, W> {
         faces: &'v [Value<T, W>],
     ) -> Self {
         let (mut masks, pieces) = (masks.clone(), split.pieces());
-        let regular = weights(&masks.vertex(match pieces {
-            Pieces::Quads => 4,
-            Pieces::Triangles => 6,
-        }));
+        let regular = weights(&masks.vertex(pieces.valence()));
         Self { mesh: split.parent(), pieces, values, faces, masks, regular }
     }
 

@@ -1,7 +1,7 @@
 //! One-shot refinement: the faces and values of level n, and nothing else.
 //!
 //! A [`Refiner`] keeps its scratch memory, so that refining the same mesh again
-//! touches no fresh page. For several levels at once, or for new positions on
+//! touches hardly a fresh page. For several levels at once, or for new positions on
 //! the same topology, see [`super::Hierarchy`].
 
 use super::channels::{ChannelOutput, ChannelRun, FaceVarying, RefinedChannel};
@@ -472,7 +472,9 @@ impl<T: Scalar> Run<'_, T> {
         mut output: Output<T>,
     ) -> Result<()> {
         let scheme = self.task.scheme;
-        let patches = Patches::new(parent, scheme.pieces(), self.plan.patch_depth())?;
+        let smooth = SmoothMasks::new(scheme);
+        let plan = (scheme.pieces(), self.plan.patch_depth());
+        let patches = Patches::new(self.context, parent, plan, smooth.is_linear())?;
         if let Some(sizes) = &mut output.face_sizes {
             patches.write_sizes(sizes);
         }
@@ -487,7 +489,7 @@ impl<T: Scalar> Run<'_, T> {
         }
         let step = |masks| Step::patches(PatchStep::new(&patches, masks));
         let steps = Steps {
-            vertex: step(SmoothMasks::new(scheme)),
+            vertex: step(smooth),
             varying: self.varies().then(|| step(SmoothMasks::linear())),
         };
         self.finish(refiner, places, level, &steps, &mut output)

@@ -59,7 +59,7 @@ pub(super) fn check_overflow<T: Scalar>(context: &Context, data: &[T], level: us
     }
     Err(Error::new(
         ErrorKind::Overflow,
-        format!("a value leaves the range of the number type at level {level}"),
+        format!("a value leaves the range of the number type by level {level}"),
     ))
 }
 

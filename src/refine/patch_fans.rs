@@ -1,7 +1,7 @@
 //! The faces around the extraordinary vertices of a mesh without boundary.
 
 use super::Pieces;
-use crate::base::{NONE, Result, memory};
+use crate::base::{Context, NONE, Result, memory};
 use crate::mesh::{Mesh, VertexSet};
 use std::ops::Range;
 
@@ -20,7 +20,8 @@ pub(crate) struct PatchFans {
 }
 
 impl PatchFans {
-    pub(crate) fn new(mesh: &Mesh, pieces: Pieces) -> Result<Self> {
+    /// The fans of a mesh, noticing a cancel.
+    pub(crate) fn new(context: &Context, mesh: &Mesh, pieces: Pieces) -> Result<Self> {
         let vertices = match pieces {
             Pieces::Quads => {
                 let used = |&v: &u32| mesh.start[v as usize] != NONE;
@@ -32,15 +33,28 @@ impl PatchFans {
             }
         };
         let (mut start, mut corners, mut owners) = (memory::collect([0])?, Vec::new(), Vec::new());
-        for (owner, &v) in (0..).zip(&vertices) {
+        for (owner, &v) in (0_u32..).zip(&vertices) {
+            if owner.is_multiple_of(1 << 16) {
+                context.check_cancelled()?;
+            }
             memory::extend(&mut corners, mesh.fan(v))?;
-            owners.resize(corners.len(), owner);
+            let added = corners.len() - owners.len();
+            memory::extend(&mut owners, std::iter::repeat_n(owner, added))?;
             memory::extend(&mut start, [corners.len() as u32])?;
         }
+        context.check_cancelled()?;
         let mut slots = memory::collect(corners.iter().copied().zip(0..))?;
         slots.sort_unstable();
+        context.check_cancelled()?;
         let set = VertexSet::new(mesh.vertices(), &vertices)?;
         Ok(Self { vertices, set, start, corners, owners, slots })
+    }
+
+    /// No fans: linear steps treat all vertices alike.
+    pub(crate) fn none() -> Self {
+        let start = Vec::new();
+        let (vertices, set, corners) = (Vec::new(), VertexSet::default(), Vec::new());
+        Self { vertices, set, start, corners, owners: Vec::new(), slots: Vec::new() }
     }
 
     /// The extraordinary vertices.
@@ -69,7 +83,7 @@ impl PatchFans {
         self.owners[slot] as usize
     }
 
-    /// The slot that lies `by` places, less than a turn, counter-clockwise of one.
+    /// The slot that lies `by` places counter-clockwise of one, once around or more.
     pub(crate) fn turn(&self, slot: usize, by: usize) -> usize {
         let slots = self.slots_of(self.owner(slot));
         let (first, n) = (slots.start, slots.len());
@@ -83,9 +97,12 @@ impl PatchFans {
     }
 
     /// The slot of a corner at an extraordinary vertex.
-    pub(crate) fn slot(&self, corner: u32) -> Option<usize> {
-        let at = self.slots.binary_search_by_key(&corner, |&(corner, _)| corner).ok()?;
-        Some(self.slots[at].1 as usize)
+    ///
+    /// # Panics
+    /// If the corner is at another one.
+    pub(crate) fn slot(&self, corner: u32) -> usize {
+        let at = self.slots.binary_search_by_key(&corner, |&(corner, _)| corner);
+        self.slots[at.expect("the corner of an extraordinary vertex")].1 as usize
     }
 }
 

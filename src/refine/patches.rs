@@ -41,11 +41,17 @@ impl<'a> Patches<'a> {
         mesh.rim.is_empty() && mesh.joints.is_empty() && mesh.sharpness.is_empty()
     }
 
-    /// Plans `depth` splits of a mesh that fits and has no other faces than the pieces.
+    /// Plans `depth` splits of a mesh that fits and has no other faces than the pieces;
+    /// `linear` if no value will follow other rules.
     ///
     /// # Errors
     /// [`ErrorKind::TooLarge`] if the children do not fit the index type.
-    pub(crate) fn new(parent: &'a Mesh, pieces: Pieces, depth: u32) -> Result<Self> {
+    pub(crate) fn new(
+        context: &Context,
+        parent: &'a Mesh,
+        (pieces, depth): (Pieces, u32),
+        linear: bool,
+    ) -> Result<Self> {
         let side = pieces.sides();
         debug_assert!(Self::fit(parent) && parent.corners() == side as usize * parent.faces());
         let mut counts = Counts::sizes_of(parent);
@@ -70,7 +76,9 @@ impl<'a> Patches<'a> {
         }
         before.push(sum);
         let tables = PatchTables::new(pieces, depth, kinds)?;
-        let fans = PatchFans::new(parent, pieces)?;
+        context.check_cancelled()?;
+        let fans =
+            if linear { PatchFans::none() } else { PatchFans::new(context, parent, pieces)? };
         Ok(Self { parent, pieces, depth, counts, fans, tables, led, before, runs })
     }
 

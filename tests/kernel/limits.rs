@@ -236,6 +236,31 @@ fn check_both_sizes(error: &Error, ceiling: u64) {
     assert!(numbers.iter().any(|&n| n > ceiling), "{text}");
 }
 
+/// The same where the last levels are done in one step: a call fits the ceiling that it
+/// asks for.
+#[test]
+fn patches_fit_their_ceiling() {
+    for (levels, least) in [(5, 1_u64), (6, 1), (7, 1)] {
+        let setup = Setup { scheme: Scheme::catmull_clark(), ..cube(dual(&[])) };
+        let (refused, _) = peak_of(|| {
+            let context = Context::builder().memory_ceiling(least).build().expect("one thread");
+            setup.refine(&context, levels)
+        });
+        let text = assert_kind(refused, ErrorKind::MemoryCeiling).to_string();
+        let needed: u64 = text
+            .split(|c: char| !c.is_ascii_digit())
+            .filter_map(|n| n.parse().ok())
+            .max()
+            .expect("a number of bytes");
+        let context = Context::builder().memory_ceiling(needed).build().expect("one thread");
+        let (refined, used) = peak_of(|| setup.refine(&context, levels));
+        refined.expect("a refinement");
+        let used = used as u64;
+        assert!(used < needed + needed / 2, "{used} bytes used, {needed} asked for");
+        assert!(needed < 2 * used + (1 << 20), "{used} bytes used, {needed} asked for");
+    }
+}
+
 /// What is predicted covers what is asked for, and not by far too much.
 #[test]
 fn predicted_memory_is_about_what_is_used() {
