@@ -1,8 +1,10 @@
 //! The children of a split: their numbers, how many there are, and the same by one thread
 //! and by two.
 
-use carvel::refine::{FaceOrigin, VertexOrigin};
-use carvel::{Boundary, Context, ErrorKind, Hierarchy, Mesh, Prediction, Scheme};
+use carvel::refine::{Counts, FaceOrigin, VertexOrigin};
+use carvel::{
+    Boundary, Context, ErrorKind, Fraction, Hierarchy, Mesh, Prediction, Refiner, Scheme, Task,
+};
 
 use crate::control::Control;
 
@@ -172,4 +174,43 @@ fn two_threads_build_and_refine_the_same() {
             assert_eq!(refined(&one, &serial), refined(&two, &threads));
         }
     }
+}
+
+#[test]
+fn one_shot_refinement_tells_the_sizes_of_faces() {
+    for (faces, scheme, size) in [
+        (vec![vec![0, 1, 2, 3], vec![1, 4, 2]], Scheme::catmull_clark(), 4),
+        (vec![vec![0, 1, 2], vec![2, 1, 3]], Scheme::loop_triangles(), 3),
+    ] {
+        let mesh = Control::new(&faces).mesh();
+        let positions = vec![0.0; 3 * mesh.vertices()];
+        let task = Task::new(&mesh, &scheme, 1, &positions);
+        let refined = Refiner::new().refine(&Context::serial(), &task).unwrap();
+        let children = refined.face_vertices.len() / size;
+        assert_eq!(refined.face_sizes, vec![size as u32; children]);
+    }
+}
+
+#[test]
+fn numbers_are_used_up_to_the_last() {
+    let mesh = Control::new(&[[0, 1, 2], [2, 1, 3]]).mesh();
+    let small = Counts::of(&mesh);
+    let limit = u64::from(u32::MAX);
+    for set in [
+        |counts: &mut Counts, n| counts.vertices = n,
+        |counts: &mut Counts, n| counts.corners = n,
+        |counts: &mut Counts, n| counts.edges = n,
+    ] {
+        let mut counts = small;
+        set(&mut counts, limit - 1);
+        counts.check_index_type().unwrap();
+        set(&mut counts, limit);
+        assert_eq!(counts.check_index_type().unwrap_err().kind(), ErrorKind::TooLarge);
+    }
+}
+
+#[test]
+fn the_paper_has_one_pass() {
+    let scheme = Scheme::three_point(Fraction::new(1, 32).unwrap()).unwrap();
+    assert_eq!(scheme.passes(), [Fraction::new(1, 2).unwrap()]);
 }
