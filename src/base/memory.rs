@@ -4,13 +4,15 @@
 use super::pages::{prefer_huge, roomy};
 use super::{Error, ErrorKind, Result};
 use bytemuck::Zeroable;
+use bytemuck::allocation::try_zeroed_vec;
 
 /// An array of zeros. Large ones are untouched pages straight from the system.
 pub(crate) fn zeroed<T: Zeroable>(len: usize) -> Result<Vec<T>> {
-    let list = bytemuck::allocation::try_zeroed_vec(roomy::<T>(len));
-    // More than was asked for must not fail where that would not.
-    let list = list.or_else(|()| bytemuck::allocation::try_zeroed_vec(len));
-    let mut list = list.map_err(|()| refused::<T>(len))?;
+    let room = roomy::<T>(len);
+    let mut list = try_zeroed_vec(room)
+        // More than was asked for must not fail where that would not.
+        .or_else(|()| if room > len { try_zeroed_vec(len) } else { Err(()) })
+        .map_err(|()| refused::<T>(len))?;
     prefer_huge(&mut list);
     list.truncate(len);
     Ok(list)
@@ -26,8 +28,11 @@ pub(crate) fn filled<T: Copy>(value: T, len: usize) -> Result<Vec<T>> {
 /// An empty array with room for `len` values.
 pub(crate) fn reserved<T>(len: usize) -> Result<Vec<T>> {
     let mut list = Vec::new();
-    let roomy = list.try_reserve_exact(roomy::<T>(len));
-    roomy.or_else(|_| list.try_reserve_exact(len)).map_err(|_| refused::<T>(len))?;
+    let room = roomy::<T>(len);
+    let taken = list.try_reserve_exact(room);
+    taken
+        .or_else(|error| if room > len { list.try_reserve_exact(len) } else { Err(error) })
+        .map_err(|_| refused::<T>(len))?;
     prefer_huge(&mut list);
     Ok(list)
 }

@@ -284,7 +284,7 @@ fn random_soups() -> impl Strategy<Value = (usize, Vec<Vec<usize>>)> {
 }
 
 proptest! {
-    #![proptest_config(config(256))]
+    #![proptest_config(config(128))]
 
     #[test]
     fn cut_repairs_any_soup_of_sound_faces((vertices, faces) in random_soups()) {

@@ -35,7 +35,7 @@ fn random_values<T: Scalar>(n: usize, seed: u64) -> Vec<T> {
 // -------------------------------------------------------------------- oracle
 
 proptest! {
-    #![proptest_config(config(256))]
+    #![proptest_config(config(128))]
 
     #[test]
     fn kernel_agrees_with_the_oracle(
@@ -104,7 +104,7 @@ fn check_irregular(mesh: &Mesh, counts: &Counts) {
 }
 
 proptest! {
-    #![proptest_config(config(256))]
+    #![proptest_config(config(128))]
 
     #[test]
     fn counts_are_as_predicted_and_every_level_is_valid(
@@ -146,7 +146,7 @@ fn largest(mesh: &Poly<f64>) -> f64 {
 }
 
 proptest! {
-    #![proptest_config(config(256))]
+    #![proptest_config(config(128))]
 
     #[test]
     fn affine_maps_commute_with_refinement(
@@ -212,7 +212,7 @@ fn polygons_of_boundary(mesh: &Poly<f64>, corners: impl Fn(usize) -> bool) -> Po
 }
 
 proptest! {
-    #![proptest_config(config(256))]
+    #![proptest_config(config(128))]
 
     #[test]
     fn boundary_does_not_see_the_interior(
@@ -279,7 +279,7 @@ fn check_step_by_step<T: Scalar>(control: &Poly<f64>, scheme: &Scheme, levels: u
 }
 
 proptest! {
-    #![proptest_config(config(192))]
+    #![proptest_config(config(96))]
 
     #[test]
     fn relabelling_only_renumbers_the_result(
@@ -516,7 +516,7 @@ proptest! {
 // -------------------------------------------------------------------- lineage
 
 proptest! {
-    #![proptest_config(config(192))]
+    #![proptest_config(config(96))]
 
     #[test]
     fn face_sources_are_composed_origins(

@@ -291,7 +291,7 @@ fn check_rebuilt_levels(control: &Poly<f64>, scheme: &Scheme) {
 }
 
 proptest! {
-    #![proptest_config(config(256))]
+    #![proptest_config(config(128))]
 
     #[test]
     fn levels_are_what_their_faces_say(
