@@ -58,6 +58,24 @@ fn numbered(raw: &[u32]) -> Channel {
     Channel { indices, values: (0..2 * numbers.len()).map(value).collect(), width: 2 }
 }
 
+/// Lets both sides of a seam share one value at an end of an edge.
+fn joined(mut control: Control, [end, other]: [u32; 2]) -> Control {
+    let sides: Vec<usize> = {
+        let first = corners(&control.sizes);
+        let faces = first.iter().zip(&control.sizes);
+        let faces = faces.map(|(&first, &size)| first..first + size as usize);
+        let at = |face: std::ops::Range<usize>, v: u32| {
+            face.into_iter().find(|&c| control.indices[c] == v)
+        };
+        faces.filter_map(|face| at(face.clone(), other).and_then(|_| at(face, end))).collect()
+    };
+    let channel = control.channels.last_mut().expect("a channel");
+    let mut indices = channel.indices.clone();
+    join(&mut indices, sides[0], sides[1]);
+    *channel = numbered(&indices);
+    control
+}
+
 fn corners(mesh: &[u32]) -> Vec<usize> {
     let mut first = 0;
     mesh.iter()
@@ -167,6 +185,11 @@ fn cases() -> Vec<(Control, &'static str)> {
         ),
         (seamed(grid().creased(&[[7, 12], [12, 17]], 1.5), &[[11, 12], [12, 13]]), "with a crease"),
         (seamed(grid().cornered(&[12], 2.5), &[[11, 12], [12, 13]]), "with a sharp vertex"),
+        (seamed(grid().creased(&[[2, 7], [7, 12]], 1.5), &[[11, 12], [12, 13]]), "a crease above"),
+        (seamed(grid().creased(&[[12, 17], [17, 22]], 1.5), &[[11, 12], [12, 13]]), "one below"),
+        (joined(seamed(grid(), &[[2, 7], [7, 12]]), [2, 7]), "ends inside and on the boundary"),
+        (joined(seamed(grid(), &[[12, 7], [12, 13], [12, 17]]), [12, 7]), "two pieces, a corner"),
+        (joined(seamed(grid(), &[[12, 7], [12, 13], [12, 17]]), [12, 13]), "two pieces, a half"),
         (seamed(shapes::prism(5), &[[0, 5], [5, 6], [6, 7]]), "closed, a face that is no quad"),
         (
             seamed(shapes::cube(), &[[0, 1], [1, 3], [3, 2], [2, 0], [0, 4], [4, 5]]),
@@ -199,6 +222,8 @@ fn all_modes_on_triangles() {
         (seamed(grid(), &[[10, 11], [11, 12]]), "ends inside"),
         (seamed(grid(), &[[10, 11], [11, 12], [12, 13], [13, 14]]), "across"),
         (seamed(grid(), &[[2, 7], [7, 12], [12, 11], [11, 10]]), "an angle"),
+        (joined(seamed(grid(), &[[12, 7], [12, 13], [12, 17]]), [12, 7]), "two pieces"),
+        (joined(seamed(grid(), &[[12, 7], [12, 13], [12, 17]]), [12, 17]), "two others"),
         (seamed(shapes::icosahedron(), &[[0, 1], [1, 2], [2, 3]]), "icosahedron"),
     ] {
         in_all_modes(&control.rounded(), Scheme::Loop, what, &mut failures);
