@@ -2,7 +2,7 @@
 //! and 17 across, 11 and 13 along.
 
 use carvel::scheme::Creasing;
-use carvel::{Boundary, Hierarchy, Scheme};
+use carvel::{Boundary, Context, Hierarchy, Scheme};
 
 use crate::control::{Control, Row, Rows, blend, mean, row, sum};
 use crate::support::number::ratio;
@@ -289,4 +289,15 @@ fn parts_of_a_mixed_row_add_up() {
     assert_eq!(total, ratio(1, 1));
     let parts = [(ratio(5, 8), crease(11, 13)), (ratio(3, 8), smooth())];
     assert_eq!(at_12(&along(0.5, 0.75)), sum(parts));
+}
+
+/// What the bulk computes is written again where a crease rules.
+#[test]
+fn values_follow_creases_as_rows_do() {
+    let control = Control::torus(4, 4).crease([0, 1], 10.0).crease([1, 2], 10.0);
+    let hierarchy = control.hierarchy(&Scheme::catmull_clark(), 1);
+    let values: Vec<f64> = (0..16).map(|v| f64::from(v * v % 7)).collect();
+    let mut refined = vec![0.0; hierarchy.mesh(1).vertices()];
+    hierarchy.refine(&Context::serial(), 1, &values, 1, &mut refined).unwrap();
+    assert_eq!(refined[1], 0.75 * values[1] + 0.125 * (values[0] + values[2]));
 }
