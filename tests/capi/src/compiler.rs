@@ -96,7 +96,9 @@ fn link_arguments(library: &Library, linkage: Linkage) -> Vec<String> {
         }
         Linkage::Static => {
             let archive = library.directory.join("libcarvel.a").display().to_string();
-            std::iter::once(archive).chain(native_libraries().iter().cloned()).collect()
+            // Each program would carry a hundred megabytes of the library's lines.
+            let plain = ["-Wl,--strip-debug".to_owned(), archive];
+            plain.into_iter().chain(native_libraries().iter().cloned()).collect()
         }
     }
 }
