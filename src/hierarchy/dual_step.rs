@@ -1,11 +1,13 @@
 //! The values of one dual step: rows applied where they are needed, kernels elsewhere.
 
-use super::kernel::{Value, corner_grid, grid_children, quad_corners, touches_rim, vertex_grid};
+use super::kernel::{
+    QuadWeights, Value, corner_grid, grid_children, quad_corners, touches_rim, vertex_grid,
+};
 use super::step::{Scratch, Sum, accumulate};
-use crate::base::{Context, Fraction, Result, Scalar, memory};
+use crate::base::{Context, Result, Scalar, memory};
 use crate::mesh::QuadWalker;
 use crate::refine::CornerSplit;
-use crate::scheme::{CornerWeights, DualRows, RowSink, Scheme, Taps};
+use crate::scheme::{DualRows, RowSink, Scheme, Taps};
 
 /// One dual step of a scheme on one mesh, ready to be applied to values.
 pub(super) struct DualStep<'a> {
@@ -71,10 +73,11 @@ impl<'a> DualStep<'a> {
         values: &[Value<T, W>],
         out: &mut [Value<T, W>],
     ) -> Result<()> {
-        let cut = self.cut();
+        let weights = QuadWeights::new(self.scheme);
         let quad = |corner: u32| {
             let corners = self.quads.vertices(corner).map(|v| &values[v as usize]);
-            (!self.mirrors || !touches_rim(self.quads, corner)).then(|| quad_corners(cut, corners))
+            (!self.mirrors || !touches_rim(self.quads, corner))
+                .then(|| quad_corners(weights, corners))
         };
         self.every_child(
             context,
@@ -157,14 +160,6 @@ impl<'a> DualStep<'a> {
         })?;
         context.fill(added, 1, |start, part| by_row(corners + start as u32, part))
     }
-
-    /// The univariate cut, whose tensor square is the corner operator of the
-    /// split on a quad, under any rule.
-    fn cut<T: Scalar>(&self) -> [T; 2] {
-        let mut weights = CornerWeights::<f64>::new(self.scheme.rule(), Fraction::HALF);
-        let cut = weights.of(2);
-        std::array::from_fn(|i| T::from_f64(cut[i]))
-    }
 }
 
 /// Taps in the working precision.
@@ -177,7 +172,7 @@ fn narrow<T: Scalar>(taps: Option<Taps<f64>>) -> Taps<T> {
 struct SplitSum<'v, T, const W: usize> {
     quads: QuadWalker<'v>,
     mirrors: bool,
-    cut: [T; 2],
+    weights: QuadWeights<T>,
     irregular: &'v [Value<T, W>],
     rows: DualRows<'v, f64>,
     points: Sum<'v, T, W>,
@@ -189,7 +184,7 @@ impl<'v, T: Scalar, const W: usize> SplitSum<'v, T, W> {
         Self {
             quads: step.quads,
             mirrors: step.mirrors,
-            cut: step.cut(),
+            weights: QuadWeights::new(step.scheme),
             irregular,
             rows: DualRows::new(step.scheme, step.split),
             points: Sum::new(values),
@@ -213,7 +208,7 @@ impl<'v, T: Scalar, const W: usize> SplitSum<'v, T, W> {
             && !(self.mirrors && touches_rim(self.quads, face))
         {
             let corners = self.quads.vertices(face).map(|v| &self.points.values[v as usize]);
-            return quad_corners(self.cut, corners)[(vertex - face) as usize];
+            return quad_corners(self.weights, corners)[(vertex - face) as usize];
         }
         let rows = &mut self.rows;
         self.points.of(|sink| rows.split_row(vertex, sink))

@@ -5,9 +5,9 @@
 //! all of them. Whether a face is such a one is found out while gathering, which
 //! costs less than keeping lists of those that are not.
 
-use crate::base::{NONE, Scalar};
+use crate::base::{Fraction, NONE, Scalar};
 use crate::mesh::QuadWalker;
-use crate::scheme::Taps;
+use crate::scheme::{CornerWeights, Scheme, Taps};
 
 /// A value of `W` lanes.
 pub(super) type Value<T, const W: usize> = [T; W];
@@ -24,37 +24,45 @@ pub(super) fn narrow<T: Scalar, const W: usize>(lanes: T::Lanes) -> Value<T, W> 
     std::array::from_fn(|lane| lanes[lane])
 }
 
-/// w₀·x₀ + w₁·x₁, lane by lane.
-#[inline(always)]
-fn mix<T: Scalar>(weights: [T; 2], x: [T::Lanes; 2]) -> T::Lanes {
-    x[0] * weights[0] + x[1] * weights[1]
-}
-
 /// Three taps, lane by lane, in order.
 #[inline(always)]
 fn filter<T: Scalar>(taps: Taps<T>, x: [T::Lanes; 3]) -> T::Lanes {
     x[0] * taps[0] + x[1] * taps[1] + x[2] * taps[2]
 }
 
-/// The univariate cut towards either end of an edge; `cut` is (near, far).
-#[inline(always)]
-fn cut_edge<T: Scalar>(cut: [T; 2], a: T::Lanes, b: T::Lanes) -> [T::Lanes; 2] {
-    [mix::<T>(cut, [a, b]), mix::<T>(cut, [b, a])]
+/// The corner operator of a scheme's split on quads.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct QuadWeights<T> {
+    own: T,
+    beside: T,
+    across: T,
 }
 
-/// The corner operator on a quad, all four corners: the tensor square of the
-/// univariate cut.
+impl<T: Scalar> QuadWeights<T> {
+    pub(super) fn new(scheme: &Scheme) -> Self {
+        let mut weights = CornerWeights::<f64>::new(scheme.rule(), Fraction::HALF);
+        let at = weights.of(4);
+        let [own, beside, across] = [at[0], at[1], at[2]].map(T::from_f64);
+        Self { own, beside, across }
+    }
+}
+
+/// What the corners of a quad become. The additions do not depend on where the quad starts,
+/// so that quads of one shape give the same bits whoever refines them.
+#[inline(always)]
+pub(super) fn quad_children<T: Scalar>(weights: QuadWeights<T>, x: [T::Lanes; 4]) -> [T::Lanes; 4] {
+    let beside = [(x[1] + x[3]) * weights.beside, (x[0] + x[2]) * weights.beside];
+    let child = |i: usize| x[i] * weights.own + beside[i % 2] + x[(i + 2) % 4] * weights.across;
+    [child(0), child(1), child(2), child(3)]
+}
+
+/// The same for stored values.
 #[inline(always)]
 pub(super) fn quad_corners<T: Scalar, const W: usize>(
-    cut: [T; 2],
+    weights: QuadWeights<T>,
     x: [&Value<T, W>; 4],
 ) -> [Value<T, W>; 4] {
-    let [x0, x1, x2, x3] = x.map(widen::<T, W>);
-    let low = cut_edge::<T>(cut, x0, x1);
-    let high = cut_edge::<T>(cut, x3, x2);
-    let left = cut_edge::<T>(cut, low[0], high[0]);
-    let right = cut_edge::<T>(cut, low[1], high[1]);
-    [left[0], right[0], right[1], left[1]].map(narrow::<T, W>)
+    quad_children::<T>(weights, x.map(widen::<T, W>)).map(narrow::<T, W>)
 }
 
 /// The grid around a quad: the corners of its face, in order, and for each
@@ -69,6 +77,20 @@ pub(super) struct Grid {
     pub(super) far: [u32; 4],
     /// Diagonally beyond vertex i.
     pub(super) beyond: [u32; 4],
+}
+
+impl Grid {
+    /// Row by row, vertex 0 lower left, counter-clockwise.
+    #[inline(always)]
+    pub(super) fn rows(&self) -> [[u32; 4]; 4] {
+        let Self { own, near, far, beyond } = self;
+        [
+            [beyond[0], near[0], far[0], beyond[1]],
+            [far[3], own[0], own[1], near[1]],
+            [near[3], own[3], own[2], far[1]],
+            [beyond[3], far[2], near[2], beyond[2]],
+        ]
+    }
 }
 
 /// True if an edge of the quad at this corner is a boundary edge.
@@ -116,14 +138,7 @@ pub(super) fn grid_children<T: Scalar, const W: usize>(
     values: &[Value<T, W>],
 ) -> [Value<T, W>; 4] {
     let at = |i: u32| widen(&values[i as usize]);
-    let Grid { own, near, far, beyond } = grid;
-    // Rows of the grid, vertex 0 lower left, counter-clockwise.
-    let rows = [
-        [at(beyond[0]), at(near[0]), at(far[0]), at(beyond[1])],
-        [at(far[3]), at(own[0]), at(own[1]), at(near[1])],
-        [at(near[3]), at(own[3]), at(own[2]), at(far[1])],
-        [at(beyond[3]), at(far[2]), at(near[2]), at(beyond[2])],
-    ];
+    let rows = grid.rows().map(|row| row.map(at));
     let left = rows.map(|r| filter::<T>(taps, [r[0], r[1], r[2]]));
     let right = rows.map(|r| filter::<T>(taps, [r[3], r[2], r[1]]));
     let low = |x: &[T::Lanes; 4]| narrow::<T, W>(filter::<T>(taps, [x[0], x[1], x[2]]));

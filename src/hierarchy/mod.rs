@@ -22,6 +22,9 @@ mod stencil_regular;
 mod stencil_rows;
 mod stencils;
 mod step;
+mod tile_centres;
+mod tile_kernel;
+mod tile_step;
 mod values;
 
 #[cfg(feature = "capi")]

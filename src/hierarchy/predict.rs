@@ -2,7 +2,7 @@
 
 use crate::base::{Error, ErrorKind, NONE, Result};
 use crate::mesh::{Channel, Mesh};
-use crate::refine::{Counts, DEEPEST, Patches, Pieces, PrimalSplit};
+use crate::refine::{Counts, DEEPEST, DEEPEST_TILE, Patches, Pieces, PrimalSplit, Tiles};
 use crate::scheme::{Scheme, SplitKind};
 
 /// The largest number of levels, for meshes that do not grow out of bounds
@@ -59,6 +59,7 @@ impl Prediction {
         let steps = levels > patches;
         let slots = match patches {
             0 => 0,
+            _ if !primal => counts[(levels - patches) as usize].irregular_corners,
             _ => extraordinary_corners(mesh, scheme.pieces(), steps),
         };
         let passes = scheme.passes().len();
@@ -209,15 +210,25 @@ impl Prediction {
     }
 }
 
-/// How many of the last levels of a closed, smooth mesh are worth a single step.
+/// How many of the last levels of a closed mesh are worth a single step; of a primal scheme
+/// only if nothing is sharp.
 fn patch_depth(mesh: &Mesh, scheme: &Scheme, levels: &[Counts]) -> u32 {
     /// Fewer patches do not pay for their tables.
     const FEWEST: u64 = 256;
-    let primal = scheme.split() != SplitKind::Corner && scheme.passes().is_empty();
-    if !primal || !Patches::fit(mesh) {
+    let last = levels.len() - 1;
+    if !scheme.passes().is_empty() {
         return 0;
     }
-    let last = levels.len() - 1;
+    if scheme.split() == SplitKind::Corner {
+        let fits = |&depth: &u32| {
+            let parent = last - depth as usize;
+            levels[parent].faces >= FEWEST && Tiles::fit(&levels[parent - 1])
+        };
+        return (2..=DEEPEST_TILE.min(last.saturating_sub(1) as u32)).rev().find(fits).unwrap_or(0);
+    }
+    if !Patches::fit(mesh) {
+        return 0;
+    }
     let side = u64::from(scheme.pieces().sides());
     let fits = |&depth: &u32| {
         let parent = &levels[last - depth as usize];

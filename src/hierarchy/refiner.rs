@@ -9,13 +9,14 @@ use super::columns::{Column, Place};
 use super::patch_step::PatchStep;
 use super::predict::Prediction;
 use super::step::{Interpolation, Step};
+use super::tile_step::TileStep;
 use super::values::{check, check_length, check_overflow, lanes};
 use crate::base::memory::{resize, zeroed};
 use crate::base::{Context, Error, ErrorKind, Result, Scalar};
 use crate::mesh::Mesh;
 use crate::refine::adjacency::Recycled;
-use crate::refine::{Counts, EdgeNumbers, Patches, Split};
-use crate::scheme::{Scheme, SmoothMasks};
+use crate::refine::{Counts, EdgeNumbers, Patches, Split, Tiles};
+use crate::scheme::{Scheme, SmoothMasks, SplitKind};
 
 /// Values on vertices, any number of them per vertex.
 #[derive(Debug, Clone, Copy)]
@@ -381,6 +382,57 @@ impl<'s> Steps<'s> {
     }
 }
 
+/// Several levels at once.
+enum Blocks<'m> {
+    Patches(Patches<'m>),
+    Tiles(Tiles<'m>),
+}
+
+impl<'m> Blocks<'m> {
+    fn new(context: &Context, mesh: &'m Mesh, scheme: &Scheme, depth: u32) -> Result<Self> {
+        if scheme.split() == SplitKind::Corner {
+            return Ok(Self::Tiles(Tiles::new(context, mesh, depth)?));
+        }
+        let linear = SmoothMasks::<f64>::new(scheme).is_linear();
+        Ok(Self::Patches(Patches::new(context, mesh, (scheme.pieces(), depth), linear)?))
+    }
+
+    fn write_sizes(&self, out: &mut [u32]) {
+        match self {
+            Self::Patches(patches) => patches.write_sizes(out),
+            Self::Tiles(tiles) => tiles.write_sizes(out),
+        }
+    }
+
+    fn write_faces(&self, context: &Context, out: &mut [u32]) -> Result<()> {
+        match self {
+            Self::Patches(patches) => patches.write_faces(context, out),
+            Self::Tiles(tiles) => tiles.write_faces(context, out),
+        }
+    }
+
+    fn each_face_source(&self, each: impl FnMut(usize, u32)) {
+        match self {
+            Self::Patches(patches) => patches.each_face_source(each),
+            Self::Tiles(tiles) => tiles.each_face_source(each),
+        }
+    }
+
+    /// The steps for the scheme's own values and, if asked for, for varying ones.
+    fn steps<'s>(&'s self, scheme: &'s Scheme, varying: bool) -> Steps<'s> {
+        match self {
+            Self::Patches(patches) => {
+                let step = |masks| Step::patches(PatchStep::new(patches, masks));
+                let varying = varying.then(|| step(SmoothMasks::linear()));
+                Steps { vertex: step(SmoothMasks::new(scheme)), varying }
+            }
+            Self::Tiles(tiles) => {
+                Steps { vertex: Step::tiles(TileStep::new(scheme, tiles)), varying: None }
+            }
+        }
+    }
+}
+
 /// A call in progress.
 struct Run<'r, T> {
     context: &'r Context,
@@ -471,27 +523,21 @@ impl<T: Scalar> Run<'_, T> {
         level: usize,
         mut output: Output<T>,
     ) -> Result<()> {
-        let scheme = self.task.scheme;
-        let smooth = SmoothMasks::new(scheme);
-        let plan = (scheme.pieces(), self.plan.patch_depth());
-        let patches = Patches::new(self.context, parent, plan, smooth.is_linear())?;
+        let (scheme, depth) = (self.task.scheme, self.plan.patch_depth());
+        let blocks = Blocks::new(self.context, parent, scheme, depth)?;
         if let Some(sizes) = &mut output.face_sizes {
-            patches.write_sizes(sizes);
+            blocks.write_sizes(sizes);
         }
         if let Some(vertices) = output.face_vertices.take() {
-            patches.write_faces(self.context, vertices)?;
+            blocks.write_faces(self.context, vertices)?;
         }
         if let Some(sources) = output.face_sources.take() {
             let kept = &refiner.face_sources;
-            patches.each_face_source(|child, face| {
+            blocks.each_face_source(|child, face| {
                 sources[child] = if level == 0 { face } else { kept[level][face as usize] };
             });
         }
-        let step = |masks| Step::patches(PatchStep::new(&patches, masks));
-        let steps = Steps {
-            vertex: step(smooth),
-            varying: self.varies().then(|| step(SmoothMasks::linear())),
-        };
+        let steps = blocks.steps(scheme, self.varies());
         self.finish(refiner, places, level, &steps, &mut output)
     }
 

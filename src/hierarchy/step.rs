@@ -4,6 +4,7 @@ use super::dual_step::DualStep;
 use super::kernel::Value;
 use super::patch_step::PatchStep;
 use super::primal_step::PrimalStep;
+use super::tile_step::TileStep;
 use crate::base::{Context, Error, ErrorKind, Result, Scalar};
 use crate::refine::Split;
 use crate::scheme::{RowSink, Scheme, SplitKind};
@@ -41,6 +42,7 @@ enum Kind<'a> {
     Dual(DualStep<'a>),
     Primal(PrimalStep<'a>),
     Patches(PatchStep<'a>),
+    Tiles(TileStep<'a>),
 }
 
 impl<'a> Step<'a> {
@@ -60,6 +62,11 @@ impl<'a> Step<'a> {
     /// Several primal steps at once.
     pub(super) fn patches(step: PatchStep<'a>) -> Self {
         Self { children: step.children(), kind: Kind::Patches(step) }
+    }
+
+    /// Several dual steps at once.
+    pub(super) fn tiles(step: TileStep<'a>) -> Self {
+        Self { children: step.children(), kind: Kind::Tiles(step) }
     }
 
     /// The step of face-varying values.
@@ -86,6 +93,7 @@ impl<'a> Step<'a> {
             Kind::Dual(step) => step.apply(context, values, out, scratch),
             Kind::Primal(step) => step.apply(context, values, out, scratch),
             Kind::Patches(step) => step.apply(context, values, out, scratch),
+            Kind::Tiles(step) => step.apply(context, values, out),
         }
     }
 }

@@ -176,6 +176,11 @@ impl Counts {
         }
     }
 
+    /// True if every vertex has four faces around it, is isolated or lies on a boundary.
+    pub(crate) fn has_regular_vertices(&self) -> bool {
+        self.valence_two + self.valence_three + self.other_vertices == 0
+    }
+
     /// True if all faces are triangles.
     pub(crate) fn has_triangles(&self) -> bool {
         self.triangles

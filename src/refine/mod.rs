@@ -18,6 +18,8 @@ mod patches;
 mod primal_adjacency;
 mod primal_split;
 mod split;
+mod tile_tables;
+mod tiles;
 
 pub use corner_split::Anchor;
 pub(crate) use corner_split::{Child, CornerSplit};
@@ -32,3 +34,5 @@ pub(crate) use patch_grid::{DEEPEST, PatchArray, patch_array, within};
 pub(crate) use patches::Patches;
 pub(crate) use primal_split::{Pieces, PrimalChild, PrimalSplit};
 pub(crate) use split::{Carried, Split};
+pub(crate) use tile_tables::{CELL, DEEPEST_TILE, Place, TILE_ROW, TileKind, array_index};
+pub(crate) use tiles::Tiles;

@@ -3,7 +3,8 @@
 
 use carvel::base::Scalar;
 use carvel::{
-    Attribute, Context, Hierarchy, LoopWeights, Prediction, Refined, Refiner, Scheme, Task,
+    Attribute, Context, CornerRule, Hierarchy, LoopWeights, Prediction, Refined, Refiner, Scheme,
+    SplitKind, Task,
 };
 use proptest::prelude::*;
 
@@ -46,8 +47,10 @@ fn refined<T: Scalar>(
     hierarchy: &Hierarchy,
     (positions, wide): (&[T], &[T]),
 ) -> Refined<T> {
+    let varying = Attribute::varying(&wide[..positions.len() / 3], 1);
+    let attributes = &[Attribute::vertex(wide, 5), varying];
     let attributes =
-        &[Attribute::vertex(wide, 5), Attribute::varying(&wide[..positions.len() / 3], 1)];
+        &attributes[..if hierarchy.scheme().split() == SplitKind::Corner { 1 } else { 2 }];
     let task = Task {
         mesh: hierarchy.mesh(0),
         scheme: hierarchy.scheme(),
@@ -79,11 +82,12 @@ fn check<T: Scalar>(control: &Poly<f64>, scheme: &Scheme, levels: u32) {
     );
     let expected = kernel::refine_values(&hierarchy, levels, &wide, 5);
     assert_eq!(bits(&whole.attributes[0]), bits(&expected));
-    let n = control.positions.len();
-    let mut linear = vec![T::default(); last.vertices()];
-    let varying = carvel::Interpolation::Varying;
-    hierarchy.interpolate(&serial, levels, varying, &wide[..n], 1, &mut linear).unwrap();
-    assert_eq!(bits(&whole.attributes[1]), bits(&linear));
+    if let Some(varying) = whole.attributes.get(1) {
+        let mut linear = vec![T::default(); last.vertices()];
+        let (n, rows) = (control.positions.len(), carvel::Interpolation::Varying);
+        hierarchy.interpolate(&serial, levels, rows, &wide[..n], 1, &mut linear).unwrap();
+        assert_eq!(bits(varying), bits(&linear));
+    }
     let mut sources: Vec<u32> = (0..hierarchy.mesh(0).faces() as u32).collect();
     for level in 1..=levels {
         let origins = hierarchy.face_origins(level).unwrap();
@@ -93,6 +97,15 @@ fn check<T: Scalar>(control: &Poly<f64>, scheme: &Scheme, levels: u32) {
     assert_eq!(whole.face_sources, sources);
     let threads = Context::builder().threads(3).chunk(1).build().unwrap();
     assert_eq!(refined(&threads, &hierarchy, (&positions, &wide)), whole);
+}
+
+/// A cube beside a vertex without faces.
+fn lone_vertex() -> Poly<f64> {
+    let mut lone = bases::cube();
+    lone.positions.insert(3, [7.0, 8.0, 9.0]);
+    let shift = |v: &mut usize| *v += usize::from(*v >= 3);
+    lone.faces.iter_mut().flatten().for_each(shift);
+    lone
 }
 
 fn quad_schemes() -> [Scheme; 2] {
@@ -112,13 +125,13 @@ fn quads_of_all_valences() {
 
 #[test]
 fn hubs_pillows_and_lone_vertices() {
-    let mut lone = bases::cube();
-    lone.positions.insert(3, [7.0, 8.0, 9.0]);
-    let shift = |v: &mut usize| *v += usize::from(*v >= 3);
-    lone.faces.iter_mut().flatten().for_each(shift);
-    for control in
-        [bases::bipyramid(40), bases::bipyramid(3), bases::prism(31), bases::pillow(5), lone]
-    {
+    for control in [
+        bases::bipyramid(40),
+        bases::bipyramid(3),
+        bases::prism(31),
+        bases::pillow(5),
+        lone_vertex(),
+    ] {
         let scheme = Scheme::catmull_clark();
         check::<f32>(&control, &scheme, levels(&control, &scheme, 0));
     }
@@ -166,6 +179,39 @@ fn linear_values_are_left_alone() {
     }
 }
 
+fn doo_sabin_schemes() -> [Scheme; 2] {
+    [Scheme::doo_sabin(), Scheme::doo_sabin().with_rule(CornerRule::Average)]
+}
+
+#[test]
+fn tiles_of_all_depths() {
+    for levels in 3..=5 {
+        check::<f32>(&bases::torus(16, 16), &Scheme::doo_sabin(), levels);
+        check::<f64>(&bases::torus(3, 90), &Scheme::doo_sabin(), levels);
+    }
+}
+
+#[test]
+fn tiles_around_faces_that_are_no_quads() {
+    for control in [
+        bases::cube(),
+        bases::tetrahedron(),
+        bases::dodecahedron(),
+        bases::bipyramid(40),
+        bases::prism(31),
+        bases::pillow(5),
+        lone_vertex(),
+    ] {
+        for scheme in doo_sabin_schemes() {
+            let fewest = levels(&control, &scheme, 0);
+            for levels in fewest..=fewest + 2 {
+                check::<f32>(&control, &scheme, levels);
+            }
+            check::<f64>(&control, &scheme, fewest);
+        }
+    }
+}
+
 proptest! {
     #![proptest_config(config(16))]
 
@@ -174,6 +220,8 @@ proptest! {
         let scheme = Scheme::catmull_clark();
         check::<f32>(&control, &scheme, levels(&control, &scheme, 0));
         check::<f64>(&control, &scheme, levels(&control, &scheme, 0));
+        let scheme = Scheme::doo_sabin();
+        check::<f32>(&control, &scheme, levels(&control, &scheme, 0));
         let (control, scheme) = (poked(&control), Scheme::loop_triangles());
         check::<f32>(&control, &scheme, levels(&control, &scheme, 0));
     }
