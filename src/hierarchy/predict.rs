@@ -17,7 +17,8 @@ pub struct Prediction {
     primal: bool,
     /// Sharp edges, sides of joints and faces of holes of the control mesh.
     features: [u64; 2],
-    /// Levels that are done in one step, and the corners at extraordinary vertices then.
+    /// Levels that are done in one step, and the corners at extraordinary vertices, or of faces
+    /// that are no quads, then.
     patches: u32,
     slots: u64,
 }
@@ -191,21 +192,28 @@ impl Prediction {
         saturate(parts.into_iter().fold(0, u128::saturating_add))
     }
 
-    /// The same where the last levels are done in one step: the levels before it; which sides
-    /// each patch leads, what its corners become, tables and arrays; the corners of
-    /// extraordinary vertices, with four lanes of their neighbours for each level.
+    /// The same where the last levels are done in one step: the levels before it; of patches
+    /// which sides each leads, what its corners become, and tables, and for the corners of
+    /// extraordinary vertices four lanes of their neighbours for each level; of tiles the first
+    /// vertex of each, tables, and for the corners of faces that are no quads four lanes for each
+    /// level.
     fn patch_bytes(&self, depth: u32, width: u64, size: u64) -> u64 {
-        const TABLES: u64 = 512 << 10;
         let levels = self.levels[..self.levels.len() - depth as usize].to_vec();
         let parent = levels[levels.len() - 1];
         let before = Self { levels, patches: 0, ..*self };
         let own = before.scratch_bytes(width, size);
         let parent_values = value_bytes(parent.vertices, width, size);
         let topology = if before.levels.len() > 1 { topology_bytes(&parent) } else { 0 };
-        let patches = 5 * u128::from(parent.faces) + value_bytes(parent.corners, width, size);
-        let each = 16 + 4 * u128::from(size) * u128::from(depth + 4);
-        let fans = u128::from(self.slots) * each;
-        let parts = [u128::from(own), parent_values, topology, patches, fans, u128::from(TABLES)];
+        let faces = u128::from(parent.faces);
+        let lanes = |levels: u32| 4 * u128::from(size) * u128::from(levels);
+        let (tables, each_face, each_slot) = if self.primal {
+            let corners = value_bytes(parent.corners, width, size);
+            (512 << 10, 5 * faces + corners, 16 + lanes(depth + 4))
+        } else {
+            (128 << 10, 4 * faces, lanes(depth + 1))
+        };
+        let slots = u128::from(self.slots).saturating_mul(each_slot);
+        let parts = [u128::from(own), parent_values, topology, each_face, slots, tables];
         saturate(parts.into_iter().fold(0, u128::saturating_add))
     }
 }

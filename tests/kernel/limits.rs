@@ -240,10 +240,11 @@ fn check_both_sizes(error: &Error, ceiling: u64) {
 /// asks for.
 #[test]
 fn patches_fit_their_ceiling() {
-    for (levels, least) in [(5, 1_u64), (6, 1), (7, 1)] {
-        let setup = Setup { scheme: Scheme::catmull_clark(), ..cube(dual(&[])) };
+    let schemes = || [Scheme::catmull_clark(), dual(&[])];
+    for (levels, scheme) in (5..=7).flat_map(|levels| schemes().map(|scheme| (levels, scheme))) {
+        let setup = Setup { scheme, ..cube(dual(&[])) };
         let (refused, _) = peak_of(|| {
-            let context = Context::builder().memory_ceiling(least).build().expect("one thread");
+            let context = Context::builder().memory_ceiling(1).build().expect("one thread");
             setup.refine(&context, levels)
         });
         let text = assert_kind(refused, ErrorKind::MemoryCeiling).to_string();
