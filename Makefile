@@ -13,18 +13,23 @@ export PREFIX DESTDIR LIBDIR INCLUDEDIR STRIP_DEBUG
 
 COMPARED = $(if $(MESH),--mesh '$(MESH)') $(if $(LEVEL),--level '$(LEVEL)') $(COMPARE_FLAGS)
 
-.PHONY: demo test lint deep mutants fuzz bench compare abi-record lib install uninstall tools test-tools clean
+.PHONY: demo test count-record lint deep mutants fuzz bench compare abi-record lib install uninstall tools test-tools clean
 
 # Refines the cow, a creased cube and the founding paper's torus into out/.
 demo: tools
 	$(CARGO) build --release --locked
 	assets/demo.sh
 
-# Format, lints, every test, the documentation's examples, the lean build.
+# Format, lints, every test, the documentation's examples, the lean build, instructions.
 test: test-tools lint
 	$(CARGO) test --workspace --all-features --locked
 	$(CARGO) build --locked --no-default-features
 	OUT=out/test CARVEL=target/debug/carvel assets/demo.sh
+	$(CARGO) run --profile counted --locked --quiet -p carvel-instructions
+
+# Records the instructions per face of the main paths after a change that is meant.
+count-record: test-tools
+	$(CARGO) run --profile counted --locked --quiet -p carvel-instructions -- --record
 
 lint: tools
 	$(CARGO) fmt --all --check
