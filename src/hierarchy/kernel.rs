@@ -48,10 +48,12 @@ impl<T: Scalar> QuadWeights<T> {
 }
 
 /// What the corners of a quad become. The additions do not depend on where the quad starts,
-/// so that quads of one shape give the same bits whoever refines them.
+/// so that quads of one shape give the same bits whoever refines them. Weighed before they are
+/// added, values near the limit stay in range.
 #[inline(always)]
 pub(super) fn quad_children<T: Scalar>(weights: QuadWeights<T>, x: [T::Lanes; 4]) -> [T::Lanes; 4] {
-    let beside = [(x[1] + x[3]) * weights.beside, (x[0] + x[2]) * weights.beside];
+    let part = x.map(|value| value * weights.beside);
+    let beside = [part[1] + part[3], part[0] + part[2]];
     let child = |i: usize| x[i] * weights.own + beside[i % 2] + x[(i + 2) % 4] * weights.across;
     [child(0), child(1), child(2), child(3)]
 }

@@ -78,7 +78,8 @@ impl Prediction {
         Ok(plan)
     }
 
-    /// How many of the last levels are done in one step, patch by patch; 0 if they are not.
+    /// How many of the last levels are done in one step, patch by patch or tile by tile; 0 if
+    /// they are not.
     #[doc(hidden)]
     pub fn patch_depth(&self) -> u32 {
         self.patches
@@ -168,11 +169,20 @@ impl Prediction {
     }
 
     /// Bytes that the levels in between need while the last one is written:
-    /// topology, and `width` values of `size` bytes on each of their vertices. A refiner that
-    /// does the last levels of a closed mesh in one step needs less.
+    /// topology, and `width` values of `size` bytes on each of their vertices; for a refiner
+    /// that does the last levels of a closed mesh in one step at most as much.
     /// Records wider than xyz and four more may pass through a copy of the last
     /// level, which is counted in.
     pub fn scratch_bytes(&self, width: u64, size: u64) -> u64 {
+        let levels = self.level_bytes(width, size);
+        match self.patches {
+            0 => levels,
+            depth => levels.max(self.patch_bytes(depth, width, size)),
+        }
+    }
+
+    /// The same with one level after the other.
+    fn level_bytes(&self, width: u64, size: u64) -> u64 {
         let inner = &self.levels[..self.levels.len() - 1];
         let topology: u128 = inner.iter().skip(1).map(topology_bytes).sum();
         // Places of child quads, for the levels that get a child mesh.
@@ -185,11 +195,16 @@ impl Prediction {
             1 => stored.unwrap_or(0),
             _ => stored.unwrap_or(0).saturating_add(last),
         };
-        let copies = if width > 7 { last } else { 0 };
+        let copies = self.copy_bytes(width, size);
         let edges = inner.last().map_or(0, |counts| self.edge_bytes(counts));
         let features = self.feature_bytes(inner.len());
         let parts = [topology, places, values, stages, copies, edges, features];
         saturate(parts.into_iter().fold(0, u128::saturating_add))
+    }
+
+    /// Lanes of wide records are collected apart and then put together.
+    fn copy_bytes(&self, width: u64, size: u64) -> u128 {
+        if width > 7 { value_bytes(self.last().vertices, width, size) } else { 0 }
     }
 
     /// The same where the last levels are done in one step: the levels before it; of patches
@@ -200,20 +215,27 @@ impl Prediction {
     fn patch_bytes(&self, depth: u32, width: u64, size: u64) -> u64 {
         let levels = self.levels[..self.levels.len() - depth as usize].to_vec();
         let parent = levels[levels.len() - 1];
+        let places = levels.iter().rev().nth(1).map_or(0, |counts| u128::from(counts.corners));
         let before = Self { levels, patches: 0, ..*self };
-        let own = before.scratch_bytes(width, size);
+        let own = before.level_bytes(width, size);
         let parent_values = value_bytes(parent.vertices, width, size);
         let topology = if before.levels.len() > 1 { topology_bytes(&parent) } else { 0 };
         let faces = u128::from(parent.faces);
         let lanes = |levels: u32| 4 * u128::from(size) * u128::from(levels);
+        // Tables grow with the faces of a patch or tile; two arrays are as large as the
+        // deepest ones ask for.
+        let each_table = |bytes: u128| bytes << (2 * depth);
         let (tables, each_face, each_slot) = if self.primal {
             let corners = value_bytes(parent.corners, width, size);
-            (512 << 10, 5 * faces + corners, 16 + lanes(depth + 4))
+            let tables = each_table(128) + lanes(2 * 2048) + (16 << 10);
+            (tables, 5 * faces + corners, 16 + lanes(depth + 4))
         } else {
-            (128 << 10, 4 * faces, lanes(depth + 1))
+            (each_table(256) + lanes(2 * 256) + (16 << 10), 4 * faces, lanes(depth + 1))
         };
         let slots = u128::from(self.slots).saturating_mul(each_slot);
-        let parts = [u128::from(own), parent_values, topology, each_face, slots, tables];
+        let copies = self.copy_bytes(width, size);
+        let own = u128::from(own);
+        let parts = [own, places, parent_values, topology, each_face, slots, tables, copies];
         saturate(parts.into_iter().fold(0, u128::saturating_add))
     }
 }

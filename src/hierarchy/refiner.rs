@@ -211,8 +211,10 @@ impl<T: Scalar> Refiner<T> {
             copy(task, output);
             return Ok(());
         }
-        // Where no value can come near the limits, nothing is checked again.
-        let bound = largest * task.scheme.growth().powi(task.levels.min(1 << 20) as i32);
+        // Where no value can come near the limits, nothing is checked again. Means may add up
+        // all of a face's or a vertex's neighbours before they divide.
+        let growth = task.scheme.growth().powi(task.levels.min(1 << 20) as i32);
+        let bound = largest * growth * task.mesh.vertices().max(6) as f64;
         let watch = !T::from_f64(bound).is_finite();
         self.levels.resize_with(task.levels as usize, Recycled::default);
         Run { context, task, plan, watch }.levels(self, output)
@@ -383,6 +385,7 @@ impl<'s> Steps<'s> {
 }
 
 /// Several levels at once.
+#[expect(clippy::large_enum_variant, reason = "a call has one, on its stack")]
 enum Blocks<'m> {
     Patches(Patches<'m>),
     Tiles(Tiles<'m>),

@@ -173,26 +173,24 @@ impl<'v, T: Scalar, const W: usize> TileKernel<'v, T, W> {
     #[inline(always)]
     fn split(&mut self, kind: TileKind, level: u32) {
         // With the size known, no index needs a check.
+        use TileKind::{Edge, Face, Vertex};
         if level + 2 < self.tiles.depth() {
             match (kind, level) {
-                (TileKind::Face, 0) => self.split_cells::<1, 1, 0, 0, true>(),
-                (TileKind::Face, _) => self.split_cells::<3, 3, 1, 1, true>(),
-                (TileKind::Edge, 0) => self.split_cells::<1, 1, 0, 1, true>(),
-                (TileKind::Edge, _) => self.split_cells::<3, 1, 1, 0, true>(),
-                (TileKind::Vertex, 0) => self.split_cells::<1, 1, 1, 1, true>(),
-                (TileKind::Vertex, _) => self.split_cells::<1, 1, 0, 0, true>(),
+                (Face, 0) | (Vertex, 1..) => self.split_cells::<1, 1, 0, 0, true>(),
+                (Face, 1..) => self.split_cells::<3, 3, 1, 1, true>(),
+                (Edge, 0) => self.split_cells::<1, 1, 0, 1, true>(),
+                (Edge, 1..) => self.split_cells::<3, 1, 1, 0, true>(),
+                (Vertex, 0) => self.split_cells::<1, 1, 1, 1, true>(),
             }
         } else {
             match (kind, level) {
-                (TileKind::Face, 0) => self.split_cells::<1, 1, 0, 0, false>(),
-                (TileKind::Face, 1) => self.split_cells::<3, 3, 1, 1, false>(),
-                (TileKind::Face, _) => self.split_cells::<5, 5, 0, 0, false>(),
-                (TileKind::Edge, 0) => self.split_cells::<1, 1, 0, 1, false>(),
-                (TileKind::Edge, 1) => self.split_cells::<3, 1, 1, 0, false>(),
-                (TileKind::Edge, _) => self.split_cells::<5, 3, 0, 1, false>(),
-                (TileKind::Vertex, 0) => self.split_cells::<1, 1, 1, 1, false>(),
-                (TileKind::Vertex, 1) => self.split_cells::<1, 1, 0, 0, false>(),
-                (TileKind::Vertex, _) => self.split_cells::<3, 3, 1, 1, false>(),
+                (Face, 0) | (Vertex, 1) => self.split_cells::<1, 1, 0, 0, false>(),
+                (Face, 1) | (Vertex, 2..) => self.split_cells::<3, 3, 1, 1, false>(),
+                (Face, 2..) => self.split_cells::<5, 5, 0, 0, false>(),
+                (Edge, 0) => self.split_cells::<1, 1, 0, 1, false>(),
+                (Edge, 1) => self.split_cells::<3, 1, 1, 0, false>(),
+                (Edge, 2..) => self.split_cells::<5, 3, 0, 1, false>(),
+                (Vertex, 0) => self.split_cells::<1, 1, 1, 1, false>(),
             }
         }
         std::mem::swap(&mut self.from, &mut self.to);

@@ -3,8 +3,8 @@
 //! In a mesh that a corner split has made, quads are of three kinds: the child of a face leads
 //! all that is around it, the quad of an edge its two short sides, the quad of a vertex
 //! nothing. What such a quad becomes, its *tile*, follows each other in the numbering and is
-//! a rectangle of faces at every level, long sides f = 1, 3, 5, 11, 21, each twice the one
-//! before and one more or less, short sides one f behind:
+//! a rectangle of faces at every level, long sides f = 1, 3, 5, 11, 21, by turns 2f + 1 and
+//! 2f − 1, short sides one f behind:
 //!
 //! ```text
 //!   V ─ E ─ V        the quads around the child F of a face: the tile of F is as
@@ -14,9 +14,9 @@
 //!   V ─ E ─ V
 //! ```
 //!
-//! A vertex belongs to the face, one level before, whose corner it is. In turns the faces of
-//! one tile of two neighbours have vertices of the other at their border; the other's
-//! do not reach across.
+//! A vertex belongs to the face, one level before, whose corner it is. At odd depths the faces
+//! of F reach one vertex into E and those of E into V; at even depths those of V reach
+//! into E and those of E into F, and never both ways.
 //!
 //! A face that is no quad keeps its size and is surrounded by quads. It is a tile of the
 //! first kind with as many sides as it has; the part at one of its sides is a *sector*. The
@@ -278,24 +278,26 @@ fn split_all(cells: &[Cell], shift: Place) -> Result<Vec<Cell>> {
 }
 
 /// The numbers of vertices by place, in a square around a tile.
-struct Numbers(Vec<u32>);
+#[derive(Debug)]
+pub(crate) struct PlaceNumbers(Vec<u32>);
 
 const UNKNOWN: u32 = u32::MAX;
 /// Places in a row: the longest side of all and a ring of vertices.
 const ROW: i32 = 24;
 
-impl Numbers {
-    fn new() -> Result<Self> {
+impl PlaceNumbers {
+    pub(crate) fn new() -> Result<Self> {
         Ok(Self(memory::filled(UNKNOWN, (ROW * ROW) as usize)?))
     }
 
-    fn get(&self, [x, y]: Place) -> Option<u32> {
+    pub(crate) fn get(&self, [x, y]: Place) -> Option<u32> {
         let inside = (0..ROW).contains(&x) && (0..ROW).contains(&y);
         let number = if inside { self.0[(y * ROW + x) as usize] } else { UNKNOWN };
         (number != UNKNOWN).then_some(number)
     }
 
-    fn set(&mut self, [x, y]: Place, number: u32) {
+    pub(crate) fn set(&mut self, [x, y]: Place, number: u32) {
+        debug_assert!((0..ROW).contains(&x));
         self.0[(y * ROW + x) as usize] = number;
     }
 }
@@ -308,7 +310,7 @@ fn tile(kind: TileKind, depth: u32) -> Result<TileTable> {
     let index = |place: Place| array_index(place) as u16;
     let parents = memory::collect(cells.iter().map(|cell| cell.at.map(index)))?;
     let shift = kind.shift(depth - 1);
-    let mut numbers = Numbers::new()?;
+    let mut numbers = PlaceNumbers::new()?;
     for (first, cell) in (0..).step_by(4).zip(&cells) {
         for (number, place) in (first..).zip(cell.own_child(shift).at) {
             numbers.set(place, number);

@@ -8,7 +8,7 @@
 
 use super::counts::Counts;
 use super::tile_tables::{
-    Foreign, Place, SectorVertex, TILE_KINDS, TileKind, TileTables, seen_from_next,
+    Foreign, Place, PlaceNumbers, SectorVertex, TILE_KINDS, TileKind, TileTables, seen_from_next,
     seen_from_previous,
 };
 use crate::base::{Context, Error, ErrorKind, Result, memory};
@@ -19,6 +19,8 @@ use std::ops::Range;
 #[derive(Debug)]
 pub(crate) struct Tiles<'a> {
     parent: &'a Mesh,
+    /// What each quad leads.
+    near: &'a [u8],
     pub(crate) counts: Counts,
     tables: TileTables,
     /// The first vertex of each tile.
@@ -35,6 +37,9 @@ pub(crate) struct TileChunk {
     faces: usize,
     pub(crate) vertices: usize,
 }
+
+/// Some sectors, and for each run what belongs to them.
+pub(crate) type SectorRuns<'o, V> = (Range<u32>, Vec<&'o mut [V]>);
 
 impl<'a> Tiles<'a> {
     /// True if a mesh of these counts, split once, can be refined this way: closed, and every
@@ -65,6 +70,7 @@ impl<'a> Tiles<'a> {
         let sectors = parent.layout.irregular_corners();
         let mut tiles = Self {
             parent,
+            near,
             counts,
             tables,
             vertices: memory::reserved(near.len())?,
@@ -111,8 +117,7 @@ impl<'a> Tiles<'a> {
     /// What a tile stands for.
     #[inline(always)]
     pub(crate) fn kind(&self, tile: usize) -> TileKind {
-        let near = self.parent.near.as_ref().map_or(&[][..], |near| &near.quads);
-        TileKind::of(near[tile])
+        TileKind::of(self.near[tile])
     }
 
     /// The first corner of a tile's quad.
@@ -234,7 +239,9 @@ impl<'a> Tiles<'a> {
         for (side, foreign) in (0..).zip(&table.beyond) {
             if !foreign.is_empty() {
                 let number = self.at_corner(self.beyond(corner + side));
-                foreign.iter().for_each(|it| out[it.slot as usize] = number);
+                for it in foreign {
+                    out[it.slot as usize] = number;
+                }
             }
         }
     }
@@ -274,7 +281,7 @@ impl<'a> Tiles<'a> {
         context: &Context,
         level: u32,
         quads: &'o mut [V],
-    ) -> Result<Vec<(Range<u32>, Vec<&'o mut [V]>)>> {
+    ) -> Result<Vec<SectorRuns<'o, V>>> {
         let each = (0..level).map(Self::quads_each).sum::<u32>() as usize;
         let chunk = context.chunk_len(quads.len()).div_ceil(each) as u32;
         let mut parts = Vec::new();
@@ -292,7 +299,9 @@ impl<'a> Tiles<'a> {
                 rest = later;
             }
         }
-        parts.iter_mut().for_each(|(_, runs)| runs.reverse());
+        for (_, runs) in &mut parts {
+            runs.reverse();
+        }
         Ok(parts)
     }
 
@@ -306,7 +315,7 @@ impl<'a> Tiles<'a> {
                 for (out, faces) in runs.iter_mut().zip(&self.tables.sector.faces) {
                     let (mine, later) = std::mem::take(out).split_at_mut(faces.len());
                     for (slot, face) in mine.iter_mut().zip(faces) {
-                        *slot = face.map(|place| numbers.get(place));
+                        *slot = face.map(|place| numbers.by_place.get(place).unwrap_or(0));
                     }
                     *out = later;
                 }
@@ -336,25 +345,18 @@ impl<'a> Tiles<'a> {
     }
 }
 
+/// What a sector beside another one sees at a place.
+type Turn = fn(Place, u32) -> Place;
+
 /// The numbers of the vertices around one sector.
 struct SectorNumbers<'t> {
     tiles: &'t Tiles<'t>,
-    by_place: Vec<u32>,
+    by_place: PlaceNumbers,
 }
 
 impl<'t> SectorNumbers<'t> {
-    const ROW: usize = 24;
-
     fn new(tiles: &'t Tiles<'t>) -> Result<Self> {
-        Ok(Self { tiles, by_place: memory::filled(0, Self::ROW * Self::ROW)? })
-    }
-
-    fn get(&self, [x, y]: Place) -> u32 {
-        self.by_place[y as usize * Self::ROW + x as usize]
-    }
-
-    fn set(&mut self, [x, y]: Place, number: u32) {
-        self.by_place[y as usize * Self::ROW + x as usize] = number;
+        Ok(Self { tiles, by_place: PlaceNumbers::new()? })
     }
 
     /// What belongs to the sector and to those beside it, and what lies across their sides.
@@ -363,26 +365,26 @@ impl<'t> SectorNumbers<'t> {
         let table = &tiles.tables.sector;
         let mesh = tiles.parent;
         let (next, previous) = (mesh.next(sector), mesh.prev(sector));
-        let turned: [(u32, fn(Place, u32) -> Place); 3] =
+        let turned: [(u32, Turn); 3] =
             [(sector, |place, _| place), (next, seen_from_previous), (previous, seen_from_next)];
         for (corner, seen) in turned {
             let centre = table.centres[depth as usize][0];
-            self.set(seen(centre, depth), corner);
+            self.by_place.set(seen(centre, depth), corner);
             for (run, faces) in (0..).zip(&table.vertices) {
                 let first = tiles.sector_vertices(corner, run);
                 for (number, &place) in (first..).zip(faces.as_flattened()) {
-                    self.set(seen(place, depth), number);
+                    self.by_place.set(seen(place, depth), number);
                 }
             }
         }
         for (side, corner) in [(0, sector), (1, next), (3, previous)] {
             let twin = mesh.twin[corner as usize];
             for &(at, place) in &table.across[side] {
-                self.set(place, tiles.at_side(twin, at));
+                self.by_place.set(place, tiles.at_side(twin, at));
             }
         }
         for (place, corner) in table.beyond.into_iter().flatten().zip([sector, next]) {
-            self.set(place, tiles.at_corner(tiles.beyond(corner)));
+            self.by_place.set(place, tiles.at_corner(tiles.beyond(corner)));
         }
     }
 }

@@ -169,13 +169,27 @@ fn attributes_that_overflow_are_an_error() {
 fn large_values_that_stay_in_range_are_refined() {
     fn check<T: Scalar>(largest: f64) {
         for passes in [&[][..], &[(1, 2)], &[(0, 1)]] {
-            let setup = extreme::<T>(&bases::torus(4, 4), dual(passes), largest);
+            let mut setup = extreme::<T>(&bases::torus(16, 16), dual(passes), largest);
             let refined = setup.refine(&Context::serial(), 3).expect("no overflow");
             assert!(refined.positions.iter().all(|x| x.to_f64().abs() <= largest));
+            // Of one sign, nothing cancels on the way.
+            setup.positions.fill(T::from_f64(largest));
+            let refined = setup.refine(&Context::serial(), 3).expect("no overflow");
+            assert!(refined.positions.iter().all(|x| x.to_f64() > 0.99 * largest));
         }
     }
-    check::<f64>(1e308);
-    check::<f32>(1e38);
+    check::<f64>(1.6e308);
+    check::<f32>(3e38);
+}
+
+/// Primal means add up before they divide: what leaves the range then is said.
+#[test]
+fn sums_that_leave_the_range_are_an_error() {
+    for levels in 1..=3 {
+        let mut setup = Setup::<f32>::new(&bases::torus(16, 16), Scheme::catmull_clark());
+        setup.positions.fill(1.3e38);
+        assert_kind(setup.refine(&Context::serial(), levels), ErrorKind::Overflow);
+    }
 }
 
 // ---------------------------------------------------------------------- sizes
@@ -243,23 +257,32 @@ fn patches_fit_their_ceiling() {
     let schemes = || [Scheme::catmull_clark(), dual(&[])];
     for (levels, scheme) in (5..=7).flat_map(|levels| schemes().map(|scheme| (levels, scheme))) {
         let setup = Setup { scheme, ..cube(dual(&[])) };
-        let (refused, _) = peak_of(|| {
-            let context = Context::builder().memory_ceiling(1).build().expect("one thread");
-            setup.refine(&context, levels)
-        });
-        let text = assert_kind(refused, ErrorKind::MemoryCeiling).to_string();
-        let needed: u64 = text
-            .split(|c: char| !c.is_ascii_digit())
-            .filter_map(|n| n.parse().ok())
-            .max()
-            .expect("a number of bytes");
-        let context = Context::builder().memory_ceiling(needed).build().expect("one thread");
-        let (refined, used) = peak_of(|| setup.refine(&context, levels));
-        refined.expect("a refinement");
-        let used = used as u64;
-        assert!(used < needed + needed / 2, "{used} bytes used, {needed} asked for");
-        assert!(needed < 2 * used + (1 << 20), "{used} bytes used, {needed} asked for");
+        for width in [0, 8] {
+            fits_its_ceiling(&setup, levels, width);
+        }
     }
+}
+
+fn fits_its_ceiling(setup: &Setup<f64>, levels: u32, width: usize) {
+    let wide = vec![0.5; setup.mesh.vertices() * width];
+    let attributes = [Attribute::vertex(&wide, width.max(1))];
+    let task = setup.task(levels, &attributes[..width.min(1)]);
+    let refine = |ceiling: u64| {
+        let context = Context::builder().memory_ceiling(ceiling).build().expect("one thread");
+        Refiner::new().refine(&context, &task)
+    };
+    let text = assert_kind(refine(1), ErrorKind::MemoryCeiling).to_string();
+    let needed: u64 = text
+        .split(|c: char| !c.is_ascii_digit())
+        .filter_map(|n| n.parse().ok())
+        .max()
+        .expect("a number of bytes");
+    let (refined, used) = peak_of(|| refine(needed));
+    refined.expect("a refinement");
+    let used = used as u64;
+    // Large arrays are rounded up to whole huge pages.
+    assert!(used < needed + needed / 8 + (1 << 16), "{used} bytes used, {needed} asked for");
+    assert!(needed < 2 * used + (1 << 20), "{used} bytes used, {needed} asked for");
 }
 
 /// What is predicted covers what is asked for, and not by far too much.

@@ -179,13 +179,70 @@ fn linear_values_are_left_alone() {
     }
 }
 
-fn doo_sabin_schemes() -> [Scheme; 2] {
-    [Scheme::doo_sabin(), Scheme::doo_sabin().with_rule(CornerRule::Average)]
+fn depth(control: &Poly<f64>, levels: u32) -> u32 {
+    let mesh = kernel::mesh(control);
+    Prediction::new(&mesh, &Scheme::doo_sabin(), levels).expect("a small mesh").patch_depth()
+}
+
+/// Copies of a polyhedron side by side.
+fn several(one: &Poly<f64>, copies: usize) -> Poly<f64> {
+    let mut all = Poly::new(Vec::new(), Vec::new());
+    for copy in 0..copies {
+        let first = all.positions.len();
+        let moved = one.positions.iter().map(|p| [p[0] + 3.0 * copy as f64, p[1], p[2]]);
+        all.positions.extend(moved);
+        let shifted = |face: &Vec<usize>| face.iter().map(|v| first + v).collect();
+        all.faces.extend(one.faces.iter().map(shifted));
+    }
+    all
+}
+
+/// The middles of a cube's edges: triangles and quads around vertices of valence 4.
+fn cuboctahedron() -> Poly<f64> {
+    let cube = bases::cube();
+    let mut edges = Vec::new();
+    let mut middle = |a: usize, b: usize| {
+        let edge = [a.min(b), a.max(b)];
+        edges.iter().position(|&e| e == edge).unwrap_or_else(|| {
+            edges.push(edge);
+            edges.len() - 1
+        })
+    };
+    let mut faces: Vec<Vec<usize>> = Vec::new();
+    for face in &cube.faces {
+        let next = face.iter().cycle().skip(1);
+        faces.push(face.iter().zip(next).map(|(&a, &b)| middle(a, b)).collect());
+    }
+    for v in 0..8 {
+        // Around a vertex: from one face to the face across its incoming edge.
+        let mut around = Vec::new();
+        let start = cube.faces.iter().position(|f| f.contains(&v)).expect("a face");
+        let mut at = start;
+        loop {
+            let face = &cube.faces[at];
+            let place = face.iter().position(|&w| w == v).expect("the vertex");
+            let before = face[(place + face.len() - 1) % face.len()];
+            around.push(middle(v, face[(place + 1) % face.len()]));
+            let across = |f: &Vec<usize>| {
+                f.iter().zip(f.iter().cycle().skip(1)).any(|(&a, &b)| (a, b) == (v, before))
+            };
+            at = cube.faces.iter().position(across).expect("a closed mesh");
+            if at == start {
+                break;
+            }
+        }
+        faces.push(around);
+    }
+    let mean = |[a, b]: &[usize; 2]| {
+        [0, 1, 2].map(|k| f64::midpoint(cube.positions[*a][k], cube.positions[*b][k]))
+    };
+    Poly::new(edges.iter().map(mean).collect(), faces)
 }
 
 #[test]
 fn tiles_of_all_depths() {
     for levels in 3..=5 {
+        assert_eq!(depth(&bases::torus(16, 16), levels), levels - 1);
         check::<f32>(&bases::torus(16, 16), &Scheme::doo_sabin(), levels);
         check::<f64>(&bases::torus(3, 90), &Scheme::doo_sabin(), levels);
     }
@@ -202,12 +259,43 @@ fn tiles_around_faces_that_are_no_quads() {
         bases::pillow(5),
         lone_vertex(),
     ] {
-        for scheme in doo_sabin_schemes() {
-            let fewest = levels(&control, &scheme, 0);
-            for levels in fewest..=fewest + 2 {
-                check::<f32>(&control, &scheme, levels);
-            }
-            check::<f64>(&control, &scheme, fewest);
+        let scheme = Scheme::doo_sabin();
+        let fewest = levels(&control, &scheme, 0);
+        for levels in fewest..=fewest + 2 {
+            assert_eq!(depth(&control, levels), 2 + levels - fewest);
+            check::<f32>(&control, &scheme, levels);
+        }
+    }
+    let average = Scheme::doo_sabin().with_rule(CornerRule::Average);
+    let control = bases::dodecahedron();
+    check::<f64>(&control, &average, levels(&control, &average, 0));
+}
+
+/// The parent is the first split of a mesh from outside, of triangles alone or not.
+#[test]
+fn tiles_of_the_first_split() {
+    for control in [several(&bases::octahedron(), 12), several(&cuboctahedron(), 10)] {
+        for levels in 3..=5 {
+            assert_eq!(depth(&control, levels), levels - 1);
+            check::<f32>(&control, &Scheme::doo_sabin(), levels);
+        }
+    }
+}
+
+/// What a refiner keeps from a call does not show in the next, whatever either did.
+#[test]
+fn a_refiner_goes_from_tiles_to_levels_and_back() {
+    let (serial, mut refiner) = (Context::serial(), Refiner::new());
+    let controls = [bases::torus(16, 16), bases::cube(), several(&bases::octahedron(), 12)];
+    let schemes = [Scheme::doo_sabin(), Scheme::catmull_clark(), Scheme::quartic()];
+    for levels in [5, 2, 4, 1, 3] {
+        for (control, scheme) in
+            controls.iter().zip(&schemes).chain(controls[1..].iter().zip(&schemes))
+        {
+            let (mesh, positions) = (kernel::mesh(control), kernel::coordinates::<f32>(control));
+            let task = Task { face_sources: true, ..Task::new(&mesh, scheme, levels, &positions) };
+            let fresh = Refiner::new().refine(&serial, &task).expect("a small refinement");
+            assert_eq!(refiner.refine(&serial, &task).expect("the same"), fresh);
         }
     }
 }
