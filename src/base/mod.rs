@@ -6,6 +6,7 @@ mod fraction;
 pub(crate) mod memory;
 mod pages;
 mod scalar;
+pub(crate) mod simd;
 mod tags;
 
 pub use context::{CancelFlag, Context, ContextBuilder};

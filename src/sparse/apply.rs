@@ -6,6 +6,7 @@
 use super::kernel::{Few, Four, Sum, row_sum};
 use super::records::{check_widths, span};
 use super::{Dependents, Records, RecordsMut, StencilTable};
+use crate::base::simd::{InnerLoop, with_widest};
 use crate::base::{Context, Result, Scalar, memory};
 use std::ops::Range;
 
@@ -118,7 +119,7 @@ impl<T: Scalar> StencilTable<T> {
         let mut packed = memory::reserved(self.columns())?;
         let records = values.values.chunks(values.stride).take(self.columns());
         packed.extend(records.map(|record| S::load(at::<V, N>(record, first))));
-        let (stride, packed) = (out.stride, &packed[..]);
+        let (stride, packed, zero) = (out.stride, &packed[..], [V::default(); N]);
         let slot = |record: &mut [V], sum: [V; N]| {
             let Some(lanes) = record[first..].first_chunk_mut::<N>() else { return };
             *lanes = if work.add { std::array::from_fn(|i| lanes[i] + sum[i]) } else { sum };
@@ -127,7 +128,8 @@ impl<T: Scalar> StencilTable<T> {
             let len = span(out.width, stride, self.rows()).unwrap_or_default();
             return context.fill_records(&mut out.values[..len], stride, |start, part| {
                 let rows = start..(start + part.len().div_ceil(stride)).min(self.rows());
-                self.sums(rows, packed, part.chunks_mut(stride), slot);
+                let slots = part.chunks_mut(stride);
+                with_widest(Sums { table: self, rows, zero, values: packed, slots, write: slot });
             });
         };
         let len = context.chunk_len(rows.len());
@@ -143,25 +145,42 @@ impl<T: Scalar> StencilTable<T> {
             for &row in rows {
                 let row = row as usize;
                 let record = &mut part[(row - first) * stride..];
-                self.sums(row..row + 1, packed, std::iter::once(record), slot);
+                let slots = std::iter::once(record);
+                let rows = row..row + 1;
+                Sums { table: self, rows, zero, values: packed, slots, write: slot }.run();
             }
         })
     }
+}
 
-    /// The sums of some rows, each handed over with a slot.
+/// The sums of some rows, each handed over with a slot.
+struct Sums<'t, T, V, S, I, F, const N: usize> {
+    table: &'t StencilTable<T>,
+    rows: Range<usize>,
+    /// What the sums begin with.
+    zero: [V; N],
+    values: &'t [S],
+    slots: I,
+    write: F,
+}
+
+impl<T, V, S, I, F, const N: usize> InnerLoop for Sums<'_, T, V, S, I, F, N>
+where
+    T: Scalar,
+    V: Scalar,
+    S: Sum<V, N>,
+    I: Iterator,
+    F: Fn(I::Item, [V; N]),
+{
+    type Output = ();
+
     #[inline(always)]
-    fn sums<V: Scalar, S: Sum<V, N>, const N: usize, O>(
-        &self,
-        rows: Range<usize>,
-        values: &[S],
-        slots: impl Iterator<Item = O>,
-        write: impl Fn(O, [V; N]),
-    ) {
-        let offsets = &self.offsets()[rows.start..=rows.end];
-        for (ends, slot) in offsets.windows(2).zip(slots) {
+    fn run(self) {
+        let offsets = &self.table.offsets()[self.rows.start..=self.rows.end];
+        for (ends, slot) in offsets.windows(2).zip(self.slots) {
             let entries = ends[0] as usize..ends[1] as usize;
-            let row = (&self.indices()[entries.clone()], &self.weights()[entries]);
-            write(slot, row_sum(row.0, row.1, values));
+            let row = (&self.table.indices()[entries.clone()], &self.table.weights()[entries]);
+            (self.write)(slot, row_sum(row.0, row.1, self.zero, self.values));
         }
     }
 }

@@ -63,9 +63,10 @@ impl<V: Scalar, const N: usize> Sum<V, N> for Four<V> {
 pub(super) fn row_sum<T: Scalar, V: Scalar, S: Sum<V, N>, const N: usize>(
     indices: &[u32],
     weights: &[T],
+    zero: [V; N],
     values: &[S],
 ) -> [V; N] {
-    let mut sum = S::load([V::default(); N]);
+    let mut sum = S::load(zero);
     let (indices, last) = indices.as_chunks::<4>();
     let (weights, last_weights) = weights.as_chunks::<4>();
     for (i, w) in indices.iter().zip(weights) {
