@@ -48,7 +48,7 @@ deep: tools
 	$(CARGO) bench --all-features --locked --no-run
 	$(MAKE) --no-print-directory fuzz
 
-# Breaks the primal schemes and splits in every way that cargo-mutants knows: hours of
+# Breaks the schemes and splits in every way that cargo-mutants knows: many hours of
 # work. MUTANTS='--shard 0/10' or '--file src/scheme/smooth.rs --no-config' for a part.
 mutants:
 	@cargo mutants --version >/dev/null 2>&1 || \

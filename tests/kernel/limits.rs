@@ -595,6 +595,7 @@ fn schemes_have_ranges() {
     }
     assert_eq!(Scheme::three_point(fraction(0, 1)).expect("in range").passes(), [Fraction::ONE]);
     assert!(Scheme::dual(&[fraction(-1000, 1)]).is_ok());
+    assert!(Scheme::dual(&[Fraction::ZERO; 64]).is_ok());
 }
 
 /// Wide attributes are written a few lanes at a time; the others are not looked at.

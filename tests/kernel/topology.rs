@@ -18,7 +18,7 @@ use crate::support::generate::{Kind, tagged_meshes};
 use crate::support::kernel::{self, Soup};
 use crate::support::manifold::assert_manifold;
 use crate::support::poly::Poly;
-use crate::support::reference::{self, Boundary, FaceParent, Scheme, VertexParent};
+use crate::support::reference::{self, Boundary, FaceParent, Rule, Scheme, VertexParent};
 use crate::support::topology::Topology;
 
 const LEVELS: u32 = 3;
@@ -350,4 +350,28 @@ fn awkward_levels_are_what_their_faces_say() {
 #[test]
 fn awkward_levels_built_from_their_faces_are_the_same() {
     each_awkward_case(check_rebuilt_levels);
+}
+
+/// Beside an interior vertex of valence 2 the quads of its two edges meet. Either of them
+/// could lead the edge between; where its child stands follows from who does.
+#[test]
+fn the_smaller_of_two_edge_quads_leads_between_them() {
+    for control in [bases::pillow(4), bases::pillow(5), bases::valence_two()] {
+        let scheme = Scheme::doo_sabin(Rule::Cosine, Boundary::None);
+        let hierarchy = kernel::hierarchy(&control, &scheme, 2);
+        let mesh = hierarchy.mesh(1);
+        let topo = topology(mesh);
+        let faces = hierarchy.face_origins(1).expect("a level that was built");
+        let of_edge = |c: usize| matches!(faces[topo.face[c]], FaceOrigin::Edge(_));
+        let mut met = 0;
+        for origin in hierarchy.face_origins(2).expect("a level that was built") {
+            let FaceOrigin::Edge(corner) = origin else { continue };
+            let twin = mesh.corner_twins()[corner as usize];
+            if of_edge(corner as usize) && of_edge(twin as usize) {
+                assert!(corner < twin, "{twin} is smaller than {corner}");
+                met += 1;
+            }
+        }
+        assert!(met > 0, "no two quads of edges met");
+    }
 }

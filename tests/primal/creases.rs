@@ -2,7 +2,7 @@
 //! and 17 across, 11 and 13 along.
 
 use carvel::scheme::Creasing;
-use carvel::{Boundary, Context, Hierarchy, Scheme};
+use carvel::{Boundary, Context, ErrorKind, Hierarchy, Refiner, Scheme, Task};
 
 use crate::control::{Control, Row, Rows, blend, mean, row, sum};
 use crate::support::number::ratio;
@@ -270,6 +270,18 @@ fn chaikin_mixes_by_what_ends() {
     // Sharper than 1 by its neighbour's help: under the uniform rule 3/4 would end.
     let rows = along(0.75, 3.0).rows(&chaikin());
     assert_eq!(rows.at(&[12]), &crease(11, 13));
+}
+
+/// In the middle of the edge from 11 to 12: 17/32 of either end and −1/64 of four others.
+#[test]
+fn beyond_a_crease_values_may_overflow() {
+    let mesh = along(1.25, 0.25).mesh();
+    let sign = |v: usize| if [11, 12].contains(&v) { 1.0 } else { -1.0 };
+    let positions: Vec<f64> = (0..75).map(|i| sign(i / 3) * f64::MAX).collect();
+    let scheme = chaikin();
+    let task = Task::new(&mesh, &scheme, 1, &positions);
+    let refused = Refiner::new().refine(&Context::serial(), &task).unwrap_err();
+    assert_eq!(refused.kind(), ErrorKind::Overflow);
 }
 
 /// A whole line of semi-sharp edges: nothing ends in the middle of it.

@@ -106,28 +106,35 @@ fn levels_are_as_large_as_predicted() {
     }
 }
 
-/// The counts of corner splits stand beside those of primal ones.
-#[test]
-fn corner_splits_are_as_large_as_predicted() {
+/// Meshes for corner splits, each under every boundary rule.
+fn corner_splits() -> Vec<(Control, Scheme)> {
     let valence_two = Control::new(&[[0, 1, 2, 3], [3, 2, 1, 0]]);
     let mut controls: Vec<Control> = controls().into_iter().map(|(control, _)| control).collect();
     controls.retain(|control| control.mesh().is_manifold() && control.creases.is_empty());
     controls.extend([valence_two, Control::bipyramid(3), Control::grid(1, 1)]);
-    for control in controls {
-        for boundary in [Boundary::None, Boundary::Edge, Boundary::EdgeAndCorner] {
-            let hierarchy = control.hierarchy(&Scheme::doo_sabin().with_boundary(boundary), 3);
-            let plan = Prediction::new(hierarchy.mesh(0), hierarchy.scheme(), 3).unwrap();
-            for level in 0..=3 {
-                let (mesh, counts) = (hierarchy.mesh(level), plan.counts(level));
-                let irregular = mesh.face_sizes().take(mesh.irregular_faces()).sum::<u32>();
-                let found = [mesh.vertices(), mesh.faces(), mesh.corners(), mesh.edges()];
-                let expected = [counts.vertices, counts.faces, counts.corners, counts.edges];
-                let what = format!("{control:?}, {boundary:?}, level {level}");
-                assert_eq!(found.map(|n| n as u64), expected, "{what}");
-                assert_eq!(mesh.boundary_edges() as u64, counts.boundary_edges, "{what}");
-                assert_eq!(mesh.irregular_faces() as u64, counts.irregular_faces, "{what}");
-                assert_eq!(u64::from(irregular), counts.irregular_corners, "{what}");
-            }
+    let modes = [Boundary::None, Boundary::Edge, Boundary::EdgeAndCorner];
+    let with = |control: Control| {
+        modes.map(|mode| (control.clone(), Scheme::doo_sabin().with_boundary(mode)))
+    };
+    controls.into_iter().flat_map(with).collect()
+}
+
+/// The counts of corner splits stand beside those of primal ones.
+#[test]
+fn corner_splits_are_as_large_as_predicted() {
+    for (control, scheme) in corner_splits() {
+        let hierarchy = control.hierarchy(&scheme, 3);
+        let plan = Prediction::new(hierarchy.mesh(0), &scheme, 3).unwrap();
+        for level in 0..=3 {
+            let (mesh, counts) = (hierarchy.mesh(level), plan.counts(level));
+            let irregular = mesh.face_sizes().take(mesh.irregular_faces()).sum::<u32>();
+            let found = [mesh.vertices(), mesh.faces(), mesh.corners(), mesh.edges()];
+            let expected = [counts.vertices, counts.faces, counts.corners, counts.edges];
+            let what = format!("{control:?}, {:?}, level {level}", scheme.boundary());
+            assert_eq!(found.map(|n| n as u64), expected, "{what}");
+            assert_eq!(mesh.boundary_edges() as u64, counts.boundary_edges, "{what}");
+            assert_eq!(mesh.irregular_faces() as u64, counts.irregular_faces, "{what}");
+            assert_eq!(u64::from(irregular), counts.irregular_corners, "{what}");
         }
     }
 }
@@ -156,22 +163,27 @@ fn corners_alone_may_be_too_many() {
     assert_eq!(plan.counts(14).check_index_type().unwrap_err().kind(), ErrorKind::TooLarge);
 }
 
+/// By chunks of one piece and by chunks of several: what is counted within a chunk starts
+/// anew in each.
 #[test]
 fn two_threads_build_and_refine_the_same() {
-    let (serial, threads) =
-        (Context::serial(), Context::builder().threads(2).chunk(1).build().expect("two threads"));
-    for (control, scheme) in controls() {
+    let two = |chunk| Context::builder().threads(2).chunk(chunk).build().expect("two threads");
+    let (serial, threads) = (Context::serial(), [1, 3].map(two));
+    for (control, scheme) in controls().into_iter().chain(corner_splits()) {
         let made = |context| Hierarchy::new(context, control.mesh(), scheme.clone(), 2).unwrap();
-        let (one, two) = (made(&serial), made(&threads));
         let values: Vec<f64> = (0..3 * control.vertices).map(|i| (i * i % 17) as f64).collect();
-        for level in 0..=2 {
-            assert_eq!(one.mesh(level), two.mesh(level), "{control:?}, level {level}");
-            let refined = |hierarchy: &Hierarchy, context| {
-                let mut out = vec![0.0; 3 * hierarchy.mesh(level).vertices()];
-                hierarchy.refine(context, level, &values, 3, &mut out).unwrap();
-                out
-            };
-            assert_eq!(refined(&one, &serial), refined(&two, &threads));
+        let refined = |hierarchy: &Hierarchy, context, level| {
+            let mut out = vec![0.0; 3 * hierarchy.mesh(level).vertices()];
+            hierarchy.refine(context, level, &values, 3, &mut out).unwrap();
+            out
+        };
+        let one = made(&serial);
+        for context in &threads {
+            let two = made(context);
+            for level in 0..=2 {
+                assert_eq!(one.mesh(level), two.mesh(level), "{control:?}, level {level}");
+                assert_eq!(refined(&one, &serial, level), refined(&two, context, level));
+            }
         }
     }
 }
@@ -213,4 +225,26 @@ fn numbers_are_used_up_to_the_last() {
 fn the_paper_has_one_pass() {
     let scheme = Scheme::three_point(Fraction::new(1, 32).unwrap()).unwrap();
     assert_eq!(scheme.passes(), [Fraction::new(1, 2).unwrap()]);
+}
+
+/// A torus of 256 quads is refined patch by patch, but not with a crease, and a grid as
+/// large is not either: patches know no rule of a crease or of a boundary.
+#[test]
+fn patches_are_for_closed_meshes_without_creases() {
+    let (scheme, context) = (Scheme::catmull_clark(), Context::serial());
+    let torus = Control::torus(16, 16);
+    for (control, depth) in
+        [(torus.clone(), 2), (torus.crease([0, 1], 1.5), 0), (Control::grid(16, 16), 0)]
+    {
+        let mesh = control.mesh();
+        assert_eq!(Prediction::new(&mesh, &scheme, 2).unwrap().patch_depth(), depth);
+        let positions: Vec<f64> = (0..3 * control.vertices).map(|i| (i * i % 17) as f64).collect();
+        let task = Task::new(&mesh, &scheme, 2, &positions);
+        let refined = Refiner::new().refine(&context, &task).unwrap();
+        let hierarchy = control.hierarchy(&scheme, 2);
+        let mut expected = vec![0.0; refined.positions.len()];
+        hierarchy.refine(&context, 2, &positions, 3, &mut expected).unwrap();
+        assert_eq!(refined.positions, expected);
+        assert_eq!(refined.face_vertices, hierarchy.mesh(2).corner_vertices());
+    }
 }

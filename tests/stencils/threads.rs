@@ -50,6 +50,23 @@ fn threads_change_no_bit() {
     }
 }
 
+/// A table says what its hierarchy does, under dual schemes as under primal ones.
+#[test]
+fn tables_refine_as_hierarchies_do() {
+    let context = Context::serial();
+    for scheme in schemes() {
+        let hierarchy = hierarchy(scheme);
+        let table = hierarchy.stencils::<f64>(&context, &StencilTask::level(1)).expect("small");
+        let values = rough::<f64>(3 * table.columns(), 1);
+        let mut expected = vec![0.0; 3 * table.rows()];
+        hierarchy.refine(&context, 1, &values, 3, &mut expected).expect("values");
+        let largest = expected.iter().fold(0.0, |m: f64, x| m.max(x.abs()));
+        for (a, b) in apply(&context, &table, &values, 3).iter().zip(&expected) {
+            assert!((a - b).abs() <= 1e-14 * largest, "{a}, by the hierarchy {b}");
+        }
+    }
+}
+
 fn values_agree(table: &StencilTable<f32>, contexts: [&Context; 2]) {
     for width in [1, 2, 3, 4, 7] {
         let x = rough::<f32>(table.columns() * width, 1);
