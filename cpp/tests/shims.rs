@@ -331,6 +331,21 @@ fn levels_alone_give_the_positions_of_the_whole_call() {
 }
 
 #[test]
+fn a_shuffled_mesh_is_the_same_mesh() {
+    let control = shapes::torus(7, 5);
+    let shuffled = shapes::shuffled(&control);
+    let mesh = |it: &Control| PeerMesh {
+        sizes: it.sizes.clone(),
+        indices: it.indices.clone(),
+        positions: it.positions.clone(),
+    };
+    assert_ne!(shuffled.indices, control.indices);
+    let apart = Comparison::through_adjacency(&mesh(&shuffled), &mesh(&control));
+    assert!(apart.agrees(Precision::Double), "{apart:?}");
+    assert_eq!(shapes::shuffled(&control), shuffled);
+}
+
+#[test]
 fn limit_stencils_give_points_and_tangents() {
     let control = shapes::cube();
     let task = Task::new(&control, Scheme::CatmullClark, Precision::Double);
