@@ -11,6 +11,7 @@ mod matched;
 mod measure;
 mod memory;
 mod part;
+mod per_frame;
 mod regime;
 mod row;
 mod sides;

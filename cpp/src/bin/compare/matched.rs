@@ -29,6 +29,13 @@ impl Matched {
         comparison.same_faces &= self.as_documented;
         comparison
     }
+
+    /// Compares positions that were computed otherwise on the same faces.
+    pub fn compare_positions(&mut self, ours: &[f32], theirs: Vec<f64>) -> Comparison {
+        self.ours.positions = doubles(ours);
+        self.theirs.positions = theirs;
+        self.compare()
+    }
 }
 
 /// carvel's answer as a peer's.

@@ -3,13 +3,15 @@
 use crate::args::Args;
 use crate::regime::Regime;
 use crate::row::Row;
-use crate::{cases, measure};
+use crate::{cases, measure, per_frame};
 
 /// What is compared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
 pub enum Part {
     /// One-shot refinement beside every peer.
     Refine,
+    /// New positions on a topology that is ready, beside OpenSubdiv.
+    PerFrame,
 }
 
 /// Takes a row, or what came in its place, as it comes.
@@ -17,12 +19,13 @@ pub type Emit<'a> = &'a mut dyn FnMut(Result<Row, String>);
 
 impl Part {
     /// All.
-    pub const ALL: [Self; 1] = [Self::Refine];
+    pub const ALL: [Self; 2] = [Self::Refine, Self::PerFrame];
 
     /// The name on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Self::Refine => "refine",
+            Self::PerFrame => "per-frame",
         }
     }
 
@@ -30,6 +33,7 @@ impl Part {
     pub fn regimes(self) -> &'static [Regime] {
         match self {
             Self::Refine => &Regime::ALL,
+            Self::PerFrame => &[Regime::ReUsed],
         }
     }
 
@@ -37,6 +41,7 @@ impl Part {
     pub fn run(self, regime: Regime, args: &Args, emit: Emit) -> Result<(), String> {
         match self {
             Self::Refine => refine(regime, args, emit),
+            Self::PerFrame => per_frame::run(args.runs, emit),
         }
     }
 }

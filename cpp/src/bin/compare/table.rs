@@ -42,6 +42,10 @@ fn about(part: Part) -> &'static str {
              write: our time over that of writing the same bytes; (D-S): the peer runs Doo-Sabin,\n\
              another surface by design on the same faces, so there is no diff\n"
         }
+        Part::PerFrame => {
+            "New positions on a topology that is ready, and making the table for it, per vertex;\n\
+             bytes are those of the stencil tables\n"
+        }
     }
 }
 
