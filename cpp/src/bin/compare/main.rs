@@ -16,6 +16,7 @@ mod regime;
 mod row;
 mod sides;
 mod table;
+mod threads;
 mod turns;
 
 use args::Args;

@@ -3,7 +3,7 @@
 use crate::args::Args;
 use crate::regime::Regime;
 use crate::row::Row;
-use crate::{cases, measure, per_frame};
+use crate::{cases, measure, per_frame, threads};
 
 /// What is compared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
@@ -12,6 +12,8 @@ pub enum Part {
     Refine,
     /// New positions on a topology that is ready, beside OpenSubdiv.
     PerFrame,
+    /// Two threads beside one.
+    Threads,
 }
 
 /// Takes a row, or what came in its place, as it comes.
@@ -19,13 +21,14 @@ pub type Emit<'a> = &'a mut dyn FnMut(Result<Row, String>);
 
 impl Part {
     /// All.
-    pub const ALL: [Self; 2] = [Self::Refine, Self::PerFrame];
+    pub const ALL: [Self; 3] = [Self::Refine, Self::PerFrame, Self::Threads];
 
     /// The name on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Self::Refine => "refine",
             Self::PerFrame => "per-frame",
+            Self::Threads => "threads",
         }
     }
 
@@ -33,7 +36,7 @@ impl Part {
     pub fn regimes(self) -> &'static [Regime] {
         match self {
             Self::Refine => &Regime::ALL,
-            Self::PerFrame => &[Regime::ReUsed],
+            Self::PerFrame | Self::Threads => &[Regime::ReUsed],
         }
     }
 
@@ -42,6 +45,7 @@ impl Part {
         match self {
             Self::Refine => refine(regime, args, emit),
             Self::PerFrame => per_frame::run(args.runs, emit),
+            Self::Threads => threads::run(args.runs, emit),
         }
     }
 }

@@ -15,7 +15,7 @@ pub struct Row {
     pub mesh: String,
     /// The level refined to.
     pub level: u32,
-    /// The peer.
+    /// The peer; carvel itself where threads or sizes are compared.
     pub peer: String,
     /// Its version.
     pub peer_version: String,
@@ -64,6 +64,10 @@ pub struct Row {
     pub ours_table_bytes: Option<f64>,
     /// The same of the peer.
     pub peer_table_bytes: Option<f64>,
+    /// Bytes that our call reads and writes at least, in 10⁹ per second.
+    pub ours_gb_per_s: Option<f64>,
+    /// The same of copying as many bytes on as many threads.
+    pub copy_gb_per_s: Option<f64>,
 }
 
 impl Row {
@@ -96,6 +100,17 @@ impl Row {
             max_difference: Some(comparison.max_difference).filter(|it| it.is_finite()),
             same_counts: comparison.same_counts,
             same_faces: comparison.same_faces,
+            ..self
+        }
+    }
+
+    /// The same as carvel beside carvel, whose answers have the same bytes.
+    pub fn beside_carvel(self, peer: &str) -> Self {
+        Self {
+            peer: peer.into(),
+            max_difference: Some(0.0),
+            same_counts: true,
+            same_faces: true,
             ..self
         }
     }

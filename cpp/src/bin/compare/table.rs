@@ -46,6 +46,10 @@ fn about(part: Part) -> &'static str {
             "New positions on a topology that is ready, and making the table for it, per vertex;\n\
              bytes are those of the stencil tables\n"
         }
+        Part::Threads => {
+            "carvel on two threads (ours) beside one (peer), wall time, re-used memory; the same bytes;\n\
+             f: per face, v: per vertex, beside the speed of copying as many bytes on two threads\n"
+        }
     }
 }
 
@@ -72,8 +76,11 @@ pub fn print_row(part: Part, row: &Row) {
         return;
     }
     let count = format!("{} {}", row.faces, &row.unit[..1]);
+    let speeds = row.ours_gb_per_s.zip(row.copy_gb_per_s);
+    let speeds =
+        speeds.map_or(String::new(), |(ours, copy)| format!(", {ours:.1} of {copy:.1} GB/s"));
     println!(
-        "{start} {count:>10} {difference:>6} {ours:>11} {peer:>11} {:>6.2} {ours_bytes:>5} {peer_bytes:>5} {} / {}",
+        "{start} {count:>10} {difference:>6} {ours:>11} {peer:>11} {:>6.2} {ours_bytes:>5} {peer_bytes:>5} {} / {}{speeds}",
         row.ratio, row.ours_call, row.peer_call,
     );
 }
