@@ -7,6 +7,7 @@
 mod args;
 mod buffers;
 mod cases;
+mod linear;
 mod matched;
 mod measure;
 mod memory;

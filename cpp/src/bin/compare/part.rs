@@ -3,7 +3,7 @@
 use crate::args::Args;
 use crate::regime::Regime;
 use crate::row::Row;
-use crate::{cases, measure, per_frame, threads};
+use crate::{cases, linear, measure, per_frame, threads};
 
 /// What is compared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
@@ -14,6 +14,8 @@ pub enum Part {
     PerFrame,
     /// Two threads beside one.
     Threads,
+    /// Large results beside a small one.
+    Linear,
 }
 
 /// Takes a row, or what came in its place, as it comes.
@@ -21,7 +23,7 @@ pub type Emit<'a> = &'a mut dyn FnMut(Result<Row, String>);
 
 impl Part {
     /// All.
-    pub const ALL: [Self; 3] = [Self::Refine, Self::PerFrame, Self::Threads];
+    pub const ALL: [Self; 4] = [Self::Refine, Self::PerFrame, Self::Threads, Self::Linear];
 
     /// The name on the command line.
     pub fn name(self) -> &'static str {
@@ -29,6 +31,7 @@ impl Part {
             Self::Refine => "refine",
             Self::PerFrame => "per-frame",
             Self::Threads => "threads",
+            Self::Linear => "linear",
         }
     }
 
@@ -37,6 +40,7 @@ impl Part {
         match self {
             Self::Refine => &Regime::ALL,
             Self::PerFrame | Self::Threads => &[Regime::ReUsed],
+            Self::Linear => &[Regime::Default],
         }
     }
 
@@ -46,6 +50,7 @@ impl Part {
             Self::Refine => refine(regime, args, emit),
             Self::PerFrame => per_frame::run(args.runs, emit),
             Self::Threads => threads::run(args.runs, emit),
+            Self::Linear => linear::run(args, emit),
         }
     }
 }

@@ -77,7 +77,7 @@ fn child(part: Part, regime: Regime, args: &Args, rows: &mut Vec<Row>) -> Result
     if let Some(mesh) = &args.mesh {
         command.arg("--mesh").arg(mesh).args(["--level", &args.level.to_string()]);
     } else {
-        command.args(["--part", part.name()]);
+        command.args(["--part", part.name()]).args(args.large.then_some("--large"));
     }
     if regime == Regime::Huge {
         // Read by the C library before main begins.
