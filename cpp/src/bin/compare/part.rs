@@ -56,7 +56,7 @@ impl Part {
 }
 
 fn refine(regime: Regime, args: &Args, emit: Emit) -> Result<(), String> {
-    for case in cases::all(args)? {
+    for case in cases::all(args, regime)? {
         for peer in case.peers() {
             let row = measure::row(&case, peer, regime, args.runs);
             let about =
