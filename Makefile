@@ -73,7 +73,7 @@ bench: tools
 	$(CARGO) bench --all-features --locked
 
 # Answers, speed and memory beside OpenSubdiv, OpenMesh and CGAL, into out/compare.json;
-# MESH=file.obj LEVEL=3 for a mesh of one's own.
+# MESH=file.obj LEVEL=3 for a mesh of one's own, COMPARE_FLAGS='--part threads' for a part.
 compare: test-tools
 	$(CARGO) run --release --locked --quiet -p carvel-peers --bin compare -- $(COMPARED)
 

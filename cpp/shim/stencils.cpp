@@ -1,5 +1,6 @@
 #include "carvel-peers/shim/stencils.hpp"
 
+#include <opensubdiv/far/primvarRefiner.h>
 #include <opensubdiv/far/ptexIndices.h>
 #include <opensubdiv/far/stencilTable.h>
 #include <opensubdiv/far/stencilTableFactory.h>
@@ -21,13 +22,24 @@ void check_level(std::uint32_t level) {
   if (level > 15) throw std::invalid_argument("OpenSubdiv counts levels in four bits");
 }
 
+std::unique_ptr<Far::TopologyRefiner> refined(const Topology &topology, std::uint32_t level) {
+  check_level(level);
+  auto refiner = topology.refiner();
+  refiner->RefineUniform(Far::TopologyRefiner::UniformOptions(int(level)));
+  osd_check();
+  return refiner;
+}
+
 // Values and how they are copied; the tables differ in how they are applied.
 template <typename Real>
 class Applied : public Stencils {
  public:
   explicit Applied(const Soup &soup) : control_(xyz_of<Real>(soup.positions)) {}
 
+  void create() override { throw std::logic_error("not the table of a level"); }
+  void clear() override {}
   std::size_t rows() const override { return values_[0].size(); }
+  std::size_t bytes() const override { return 0; }
 
   void copy_values(std::uint8_t which, rust::Slice<double> out) const override {
     if (which >= values_.size()) throw std::out_of_range("no such values");
@@ -44,27 +56,71 @@ class Applied : public Stencils {
 template <typename Real>
 class Uniform final : public Applied<Real> {
  public:
-  Uniform(const Soup &soup, const Topology &topology, std::uint32_t level) : Applied<Real>(soup) {
-    check_level(level);
-    const auto refiner = topology.refiner();
-    refiner->RefineUniform(Far::TopologyRefiner::UniformOptions(int(level)));
-    using Factory = Far::StencilTableFactoryReal<Real>;
-    typename Factory::Options options;
-    options.generateIntermediateLevels = false;
-    options.generateControlVerts = level == 0;
-    options.maxLevel = level;
-    table_.reset(Factory::Create(*refiner, options));
-    osd_check();
-    if (!table_) throw std::runtime_error("no stencil table");
+  Uniform(const Soup &soup, const Topology &topology, std::uint32_t level)
+      : Applied<Real>(soup), refiner_(refined(topology, level)) {
+    create();
     this->values_[0].resize(table_->GetNumStencils());
   }
 
+  void create() override {
+    using Factory = Far::StencilTableFactoryReal<Real>;
+    typename Factory::Options options;
+    options.generateIntermediateLevels = false;
+    options.generateControlVerts = refiner_->GetMaxLevel() == 0;
+    options.maxLevel = refiner_->GetMaxLevel();
+    table_.reset(Factory::Create(*refiner_, options));
+    osd_check();
+    if (!table_) throw std::runtime_error("no stencil table");
+  }
+
+  void clear() override { table_.reset(); }
+
   void update() override {
+    if (!table_) throw std::logic_error("no stencil table");
     table_->UpdateValues(this->control_.data(), this->values_[0].data());
   }
 
+  std::size_t bytes() const override {
+    if (!table_) return 0;
+    return sizeof(int) * (table_->GetSizes().capacity() + table_->GetOffsets().capacity() +
+                          table_->GetControlIndices().capacity()) +
+           sizeof(Real) * table_->GetWeights().capacity();
+  }
+
  private:
+  std::unique_ptr<const Far::TopologyRefiner> refiner_;
   std::unique_ptr<const Far::StencilTableReal<Real>> table_;
+};
+
+// No table: PrimvarRefiner through all levels, each of which keeps its array.
+template <typename Real>
+class Levels final : public Applied<Real> {
+ public:
+  Levels(const Soup &soup, const Topology &topology, std::uint32_t level)
+      : Applied<Real>(soup), refiner_(refined(topology, level)), between_(level ? level - 1 : 0) {
+    for (std::uint32_t n = 1; n <= level; ++n)
+      values(n).resize(refiner_->GetLevel(int(n)).GetNumVertices());
+    if (level == 0) this->values_[0] = this->control_;
+  }
+
+  void update() override {
+    const Far::PrimvarRefinerReal<Real> primvar(*refiner_);
+    const Xyz<Real> *from = this->control_.data();
+    for (int n = 1; n <= refiner_->GetMaxLevel(); ++n) {
+      Xyz<Real> *to = values(std::uint32_t(n)).data();
+      primvar.Interpolate(n, from, to);
+      from = to;
+    }
+    osd_check();
+  }
+
+ private:
+  std::vector<Xyz<Real>> &values(std::uint32_t level) {
+    return level <= between_.size() ? between_[level - 1] : this->values_[0];
+  }
+
+  std::unique_ptr<const Far::TopologyRefiner> refiner_;
+  std::vector<std::vector<Xyz<Real>>> between_;
 };
 
 template <typename Real>
@@ -114,6 +170,13 @@ std::unique_ptr<Stencils> stencils_new(const Soup &soup, const Tags &tags,
   if (precision == Precision::Single)
     return std::make_unique<Uniform<float>>(soup, topology, level);
   return std::make_unique<Uniform<double>>(soup, topology, level);
+}
+
+std::unique_ptr<Stencils> levels_new(const Soup &soup, const Tags &tags, const OsdOptions &options,
+                                     Precision precision, std::uint32_t level) {
+  const Topology topology(soup, tags, options);
+  if (precision == Precision::Single) return std::make_unique<Levels<float>>(soup, topology, level);
+  return std::make_unique<Levels<double>>(soup, topology, level);
 }
 
 std::unique_ptr<Stencils> limit_stencils_new(const Soup &soup, const Tags &tags,

@@ -141,6 +141,14 @@ pub(crate) mod ffi {
             precision: Precision,
             level: u32,
         ) -> Result<UniquePtr<Stencils>>;
+        /// The level's values without a table, by `PrimvarRefiner` through all levels.
+        fn levels_new(
+            soup: &Soup,
+            tags: &Tags,
+            options: &OsdOptions,
+            precision: Precision,
+            level: u32,
+        ) -> Result<UniquePtr<Stencils>>;
         /// Places: a ptex face and (s, t) in it; `isolation` levels of features.
         fn limit_stencils_new(
             soup: &Soup,
@@ -151,9 +159,14 @@ pub(crate) mod ffi {
             faces: &[u32],
             parameters: &[f64],
         ) -> Result<UniquePtr<Stencils>>;
+        /// Makes the table of a level anew from its refiner; timed.
+        fn create(self: Pin<&mut Stencils>) -> Result<()>;
+        /// Frees that table.
+        fn clear(self: Pin<&mut Stencils>);
         /// Applies the table to the control positions; timed.
-        fn update(self: Pin<&mut Stencils>);
+        fn update(self: Pin<&mut Stencils>) -> Result<()>;
         fn rows(self: &Stencils) -> usize;
+        fn bytes(self: &Stencils) -> usize;
         /// 0 positions, 1 and 2 the derivatives of a limit table.
         fn copy_values(self: &Stencils, which: u8, out: &mut [f64]) -> Result<()>;
 

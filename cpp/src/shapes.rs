@@ -157,6 +157,33 @@ pub fn torus(around: u32, across: u32) -> Control {
     Control::new(&all, (0..around).flat_map(|i| (0..across).map(move |j| quad(i, j))))
 }
 
+/// The same with vertices and faces numbered at random, always the same way.
+#[must_use]
+pub fn shuffled(control: &Control) -> Control {
+    let mut state = 1;
+    let names = permutation(control.vertices(), &mut state);
+    let faces: Vec<_> = control.faces().collect();
+    let order = permutation(faces.len(), &mut state);
+    let renamed = |&f: &u32| faces[f as usize].iter().map(|&v| names[v as usize]).collect();
+    let mut it = Control::new(&[], order.iter().map(renamed).collect::<Faces>());
+    it.positions = vec![0.0; control.positions.len()];
+    for (&name, at) in names.iter().zip(control.positions.chunks(3)) {
+        it.positions[3 * name as usize..][..3].copy_from_slice(at);
+    }
+    it
+}
+
+/// The numbers below n in a random order; Knuth's generator of 64 bits.
+fn permutation(n: usize, state: &mut u64) -> Vec<u32> {
+    let mut list: Vec<u32> = (0..n as u32).collect();
+    for i in (1..n).rev() {
+        *state =
+            state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        list.swap(i, (*state >> 33) as usize % (i + 1));
+    }
+    list
+}
+
 /// Several meshes side by side as one.
 pub fn components(parts: &[Control]) -> Control {
     let mut all = Control::default();

@@ -1,4 +1,5 @@
-//! OpenSubdiv's composed stencil tables, for comparisons of data on fixed topology.
+//! OpenSubdiv's composed stencil tables, for comparisons of data on fixed topology, and its
+//! way without one.
 
 use crate::bridge::ffi;
 use crate::opensubdiv::{Tags, options};
@@ -21,6 +22,19 @@ impl Stencils {
         let (tags, options) = Self::input(task)?;
         let (soup, precision) = (task.control.soup(), task.precision.code());
         ffi::stencils_new(&soup, &tags.view(), &options, precision, level)
+            .map(|inner| Self { inner })
+            .map_err(message)
+    }
+
+    /// No table but the refined topology: `PrimvarRefiner` through every level, into the
+    /// same rows as [`Stencils::of_level`].
+    ///
+    /// # Errors
+    /// What OpenSubdiv does not take.
+    pub fn by_levels(task: &Task, level: u32) -> Result<Self> {
+        let (tags, options) = Self::input(task)?;
+        let (soup, precision) = (task.control.soup(), task.precision.code());
+        ffi::levels_new(&soup, &tags.view(), &options, precision, level)
             .map(|inner| Self { inner })
             .map_err(message)
     }
@@ -60,9 +74,30 @@ impl Stencils {
         self.inner.rows()
     }
 
-    /// Applies the table to the control positions: this is what is timed.
-    pub fn update(&mut self) {
-        self.inner.pin_mut().update();
+    /// Bytes of the table; 0 without one.
+    pub fn bytes(&self) -> usize {
+        self.inner.bytes()
+    }
+
+    /// Makes the table of a level anew from its refined topology: this is what is timed.
+    ///
+    /// # Errors
+    /// Without a table of a level.
+    pub fn create(&mut self) -> Result<()> {
+        self.inner.pin_mut().create().map_err(message)
+    }
+
+    /// Frees the table of a level.
+    pub fn clear(&mut self) {
+        self.inner.pin_mut().clear();
+    }
+
+    /// Computes the rows from the control positions: this is what is timed.
+    ///
+    /// # Errors
+    /// Without the table, or what OpenSubdiv calls an error.
+    pub fn update(&mut self) -> Result<()> {
+        self.inner.pin_mut().update().map_err(message)
     }
 
     /// Positions, xyz per row.

@@ -288,7 +288,7 @@ fn stencils_give_the_refined_positions() {
         let refined = OpenSubdiv.refine(&task, 2).expect("a prism");
         let mut table = Stencils::of_level(&task, 2).expect("a table");
         assert_eq!(table.rows(), refined.vertices());
-        table.update();
+        table.update().expect("rows");
         let apart = table.positions().expect("positions");
         let apart = apart.iter().zip(&refined.positions).map(|(a, b)| (a - b).abs());
         assert!(apart.fold(0.0, f64::max) < 4.0 * carvel_peers::normalise::tolerance(precision));
@@ -297,12 +297,61 @@ fn stencils_give_the_refined_positions() {
 }
 
 #[test]
+fn a_table_can_be_made_anew_and_freed() {
+    let control = shapes::prism(5);
+    let task = Task::new(&control, Scheme::CatmullClark, Precision::Double);
+    let mut table = Stencils::of_level(&task, 2).expect("a table");
+    table.update().expect("rows");
+    let (bytes, before) = (table.bytes(), table.positions().expect("positions"));
+    // A size for each row, an index and a weight for each entry; four entries at least.
+    assert!(bytes >= table.rows() * (4 + 4 * 12), "{bytes}");
+    table.clear();
+    assert_eq!(table.bytes(), 0);
+    assert!(table.update().is_err());
+    table.create().and_then(|()| table.update()).expect("the same table");
+    assert_eq!((table.bytes(), table.positions()), (bytes, Ok(before)));
+}
+
+#[test]
+fn levels_alone_give_the_positions_of_the_whole_call() {
+    let (quads, triangles) = (shapes::prism(5).rounded(), shapes::icosahedron().rounded());
+    for (scheme, control) in [(Scheme::CatmullClark, &quads), (Scheme::Loop, &triangles)] {
+        for precision in Precision::ALL {
+            let task = Task::new(control, scheme, precision);
+            for level in 0..=3 {
+                let refined = OpenSubdiv.refine(&task, level).expect("a closed mesh");
+                let mut levels = Stencils::by_levels(&task, level).expect("a refiner");
+                levels.update().expect("rows");
+                assert_eq!(levels.positions(), Ok(refined.positions), "{scheme:?} {level}");
+                assert_eq!(levels.bytes(), 0);
+                assert!(levels.create().is_err(), "there is no table");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_shuffled_mesh_is_the_same_mesh() {
+    let control = shapes::torus(7, 5);
+    let shuffled = shapes::shuffled(&control);
+    let mesh = |it: &Control| PeerMesh {
+        sizes: it.sizes.clone(),
+        indices: it.indices.clone(),
+        positions: it.positions.clone(),
+    };
+    assert_ne!(shuffled.indices, control.indices);
+    let apart = Comparison::through_adjacency(&mesh(&shuffled), &mesh(&control));
+    assert!(apart.agrees(Precision::Double), "{apart:?}");
+    assert_eq!(shapes::shuffled(&control), shuffled);
+}
+
+#[test]
 fn limit_stencils_give_points_and_tangents() {
     let control = shapes::cube();
     let task = Task::new(&control, Scheme::CatmullClark, Precision::Double);
     let mut table =
         Stencils::of_limit(&task, 4, &[0, 5], &[[0.0, 0.0], [0.5, 0.5]]).expect("a table");
-    table.update();
+    table.update().expect("rows");
     let points = table.positions().expect("points");
     // A corner of valence 3: (9 v + 4 times its neighbours + the face diagonals) / 24,
     // so -1/2 of the cube's coordinates at -1, as neighbours add -1 and diagonals +1.

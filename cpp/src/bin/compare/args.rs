@@ -4,15 +4,17 @@ use clap::Parser;
 use std::path::PathBuf;
 use std::process::ExitCode;
 
+use crate::part::Part;
 use crate::regime::Regime;
 
 /// Compares carvel with OpenSubdiv, OpenMesh and CGAL: answers first, then times and
-/// memory, on one thread in single precision.
+/// memory, in single precision, on one thread unless said otherwise.
 #[derive(Debug, Parser)]
 #[command(name = "compare")]
 pub struct Args {
-    /// A mesh file (OBJ, OFF, PLY, STL) in place of the built-in meshes.
-    #[arg(long)]
+    /// A mesh file (OBJ, OFF, PLY, STL) in place of the built-in meshes; part `refine`
+    /// only.
+    #[arg(long, conflicts_with = "parts")]
     pub mesh: Option<PathBuf>,
 
     /// The level to refine the file's mesh to.
@@ -31,12 +33,29 @@ pub struct Args {
     #[arg(long = "regime", value_name = "REGIME")]
     pub regimes: Vec<Regime>,
 
+    /// Only these parts.
+    #[arg(long = "part", value_name = "PART")]
+    pub parts: Vec<Part>,
+
+    /// Also 100 M faces in part `linear`: 6 GB of memory.
+    #[arg(long)]
+    pub large: bool,
+
     /// Runs one regime in this process and prints its rows as JSON.
     #[arg(long, hide = true)]
     pub child: Option<Regime>,
 }
 
 impl Args {
+    /// The parts asked for.
+    pub fn parts(&self) -> &[Part] {
+        match (&self.mesh, &self.parts[..]) {
+            (Some(_), _) => &[Part::Refine],
+            (None, []) => &Part::ALL,
+            (None, parts) => parts,
+        }
+    }
+
     /// Reads the command line; a mistake is answered in one line.
     pub fn read() -> Result<Self, ExitCode> {
         Self::try_parse().map_err(|error| {

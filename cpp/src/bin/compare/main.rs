@@ -1,17 +1,24 @@
 //! `make compare`: carvel and its peers on the same meshes, in one table.
 //!
-//! One process per memory regime: a regime is a state of the whole process, and some of
+//! One process per part and memory regime: a regime is a state of the whole process, and some of
 //! it must be set before the process begins. Within one, carvel and the peer take turns,
 //! so that whatever disturbs the machine disturbs both.
 
 mod args;
+mod buffers;
 mod cases;
+mod linear;
+mod matched;
 mod measure;
 mod memory;
+mod part;
+mod per_frame;
 mod regime;
 mod row;
 mod sides;
 mod table;
+mod threads;
+mod turns;
 
 use args::Args;
 use std::process::ExitCode;

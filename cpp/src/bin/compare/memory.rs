@@ -3,12 +3,17 @@
 use std::fs;
 use std::hint::black_box;
 
-/// A field of a file under `/proc/self` in bytes.
+/// A field of a file under `/proc` in bytes.
 fn field(file: &str, name: &str) -> Result<u64, String> {
     let text = fs::read_to_string(file).map_err(|e| format!("{file}: {e}"))?;
     let line = text.lines().find(|line| line.starts_with(name));
     let kib = line.and_then(|line| line.split_whitespace().nth(1)?.parse::<u64>().ok());
     kib.map(|kib| kib * 1024).ok_or_else(|| format!("{file} has no {name}"))
+}
+
+/// Bytes that the system could give to a process now.
+pub fn available() -> Result<u64, String> {
+    field("/proc/meminfo", "MemAvailable:")
 }
 
 /// The resident set at the start of a measurement.

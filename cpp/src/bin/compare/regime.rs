@@ -1,15 +1,16 @@
 //! In which state memory is when a call begins.
 
 use carvel_peers::heap;
-use serde_json::Value;
+use serde_json::{Value, json};
 use std::fs;
 use std::io::{BufRead, BufReader};
 use std::path::Path;
 use std::process::{Command, Stdio};
 
 use crate::args::Args;
+use crate::part::Part;
 use crate::row::Row;
-use crate::{cases, measure, memory, table};
+use crate::{cases, memory, table};
 
 /// A state of memory.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
@@ -25,7 +26,7 @@ pub enum Regime {
 
 impl Regime {
     /// All.
-    const ALL: [Self; 3] = [Self::Default, Self::Huge, Self::ReUsed];
+    pub const ALL: [Self; 3] = [Self::Default, Self::Huge, Self::ReUsed];
 
     /// The name on the command line, in the table and in the file.
     pub fn name(self) -> &'static str {
@@ -50,28 +51,33 @@ impl Regime {
     }
 }
 
-/// Runs every regime in a process of its own, prints the table and writes the file.
+/// Runs every regime of every part in a process of its own, prints the tables and writes
+/// the file.
 pub fn run_all(args: &Args) -> Result<(), String> {
     // Said here once, and not by every child.
     if let Some(path) = &args.mesh {
         cases::read(path)?;
     }
-    let chosen = if args.regimes.is_empty() { &Regime::ALL[..] } else { &args.regimes };
-    table::print_head();
     let mut rows = Vec::new();
-    for &regime in chosen {
-        child(regime, args, &mut rows)?;
+    for &part in args.parts() {
+        table::print_head(part);
+        let asked = |it: &&Regime| args.regimes.is_empty() || args.regimes.contains(it);
+        for &regime in part.regimes().iter().filter(asked) {
+            child(part, regime, args, &mut rows)?;
+        }
     }
     write(&args.out, &rows)
 }
 
 /// Starts a process for a regime and takes its rows as they come.
-fn child(regime: Regime, args: &Args, rows: &mut Vec<Row>) -> Result<(), String> {
+fn child(part: Part, regime: Regime, args: &Args, rows: &mut Vec<Row>) -> Result<(), String> {
     let program = std::env::current_exe().map_err(|e| format!("this program: {e}"))?;
     let mut command = Command::new(program);
     command.args(["--child", regime.name(), "--runs", &args.runs.to_string()]);
     if let Some(mesh) = &args.mesh {
         command.arg("--mesh").arg(mesh).args(["--level", &args.level.to_string()]);
+    } else {
+        command.args(["--part", part.name()]).args(args.large.then_some("--large"));
     }
     if regime == Regime::Huge {
         // Read by the C library before main begins.
@@ -81,21 +87,21 @@ fn child(regime: Regime, args: &Args, rows: &mut Vec<Row>) -> Result<(), String>
     let mut process = command.stdout(Stdio::piped()).spawn().map_err(failed)?;
     let lines = process.stdout.take().into_iter().flat_map(|out| BufReader::new(out).lines());
     for line in lines {
-        take(&line.map_err(failed)?, rows)?;
+        take(part, &line.map_err(failed)?, rows)?;
     }
     let status = process.wait().map_err(failed)?;
     if status.success() { Ok(()) } else { Err(format!("regime {}: {status}", regime.name())) }
 }
 
 /// A line of a child: a row, or a note as a string.
-fn take(line: &str, rows: &mut Vec<Row>) -> Result<(), String> {
+fn take(part: Part, line: &str, rows: &mut Vec<Row>) -> Result<(), String> {
     let value: Value = serde_json::from_str(line).map_err(|e| format!("{line}: {e}"))?;
     if let Value::String(note) = value {
         println!("{note}");
         return Ok(());
     }
     let row: Row = serde_json::from_value(value).map_err(|e| format!("{line}: {e}"))?;
-    table::print_row(&row);
+    table::print_row(part, &row);
     rows.push(row);
     Ok(())
 }
@@ -114,19 +120,10 @@ fn write(path: &Path, rows: &[Row]) -> Result<(), String> {
 /// Measures everything in this process, in one regime, and prints rows as JSON lines.
 pub fn run_here(regime: Regime, args: &Args) -> Result<(), String> {
     regime.enter()?;
-    for case in cases::all(args)? {
-        for peer in case.peers() {
-            let line = match measure::row(&case, peer, regime, args.runs) {
-                Ok(row) => serde_json::to_string(&row),
-                Err(reason) => serde_json::to_string(&format!(
-                    "{} on {} with {}: {reason}",
-                    case.scheme.name(),
-                    case.mesh,
-                    peer.name()
-                )),
-            };
-            println!("{}", line.map_err(|e| e.to_string())?);
-        }
-    }
-    Ok(())
+    let mut emit = |row: Result<Row, String>| {
+        // Rows are numbers and strings, which JSON has.
+        let line = row.map_or_else(|note| json!(note), |row| json!(row));
+        println!("{line}");
+    };
+    args.parts().iter().try_for_each(|part| part.run(regime, args, &mut emit))
 }

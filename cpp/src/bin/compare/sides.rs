@@ -1,17 +1,22 @@
-//! The two sides as what is timed: one ordinary public call each.
+//! The sides as what is timed: one ordinary public call each.
 
 use carvel::mesh::Mesh;
-use carvel::{Context, Output, Prediction, Refined, Refiner, Task};
+use carvel::{Context, Refined, Refiner, Task};
 use carvel_peers::heap;
+use std::cell::RefCell;
+
+use crate::buffers::Buffers;
 
 /// Something that can be called again and again.
 pub trait Side {
     /// Brings everything back to before the call; not timed.
-    fn prepare(&mut self) -> Result<(), String>;
-    /// The call; faces and positions are in memory when it returns.
+    fn prepare(&mut self) -> Result<(), String> {
+        Ok(())
+    }
+    /// The call; what it computes is in memory when it returns.
     fn call(&mut self) -> Result<(), String>;
     /// Frees the result; not timed.
-    fn clear(&mut self);
+    fn clear(&mut self) {}
 }
 
 /// The control mesh, the scheme, the level.
@@ -29,6 +34,11 @@ pub struct Given {
 impl Given {
     fn task(&self) -> Task<'_, f32> {
         Task::new(&self.mesh, &self.scheme, self.level, &self.positions)
+    }
+
+    /// carvel's answer, which is compared before anything is timed.
+    pub fn answer(&self, context: &Context) -> Result<Refined<f32>, String> {
+        Refiner::new().refine(context, &self.task()).map_err(|e| e.to_string())
     }
 }
 
@@ -67,53 +77,26 @@ impl Side for Fresh<'_> {
 /// carvel into the caller's buffers, with a refiner that is kept.
 pub struct ReUsed<'a> {
     given: &'a Given,
+    context: &'a Context,
     refiner: Refiner<f32>,
-    sizes: Vec<u32>,
-    indices: Vec<u32>,
-    positions: Vec<f32>,
+    buffers: &'a RefCell<Buffers>,
 }
 
 impl<'a> ReUsed<'a> {
-    /// Buffers come with the first call.
-    pub fn new(given: &'a Given) -> Self {
-        let refiner = Refiner::new();
-        Self { given, refiner, sizes: vec![], indices: vec![], positions: vec![] }
-    }
-
-    fn allocate(&mut self) -> Result<(), String> {
-        let given = self.given;
-        let plan = Prediction::new(&given.mesh, &given.scheme, given.level);
-        let last = *plan.map_err(|e| e.to_string())?.last();
-        self.sizes = vec![0; last.faces as usize];
-        self.indices = vec![0; last.corners as usize];
-        self.positions = vec![0.0; 3 * last.vertices as usize];
-        Ok(())
+    /// Buffers are allocated by the first call.
+    pub fn new(given: &'a Given, context: &'a Context, buffers: &'a RefCell<Buffers>) -> Self {
+        Self { given, context, refiner: Refiner::new(), buffers }
     }
 }
 
 impl Side for ReUsed<'_> {
-    fn prepare(&mut self) -> Result<(), String> {
-        Ok(())
-    }
-
     fn call(&mut self) -> Result<(), String> {
-        if self.sizes.is_empty() {
-            self.allocate()?;
-        }
-        let output = Output {
-            face_sizes: Some(&mut self.sizes),
-            face_vertices: Some(&mut self.indices),
-            face_sources: None,
-            positions: &mut self.positions,
-            attributes: Vec::new(),
-            channels: Vec::new(),
-        };
+        let mut buffers = self.buffers.borrow_mut();
+        buffers.allocate(self.given)?;
         self.refiner
-            .refine_into(&Context::serial(), &self.given.task(), output)
+            .refine_into(self.context, &self.given.task(), buffers.output())
             .map_err(|e| e.to_string())
     }
-
-    fn clear(&mut self) {}
 }
 
 /// A peer's ordinary call.

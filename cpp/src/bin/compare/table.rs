@@ -1,55 +1,106 @@
-//! The table, at most 120 columns wide.
+//! The tables, at most 120 columns wide.
 
+use crate::part::Part;
 use crate::row::Row;
 
 /// Prints what the columns are.
-pub fn print_head() {
+pub fn print_head(part: Part) {
+    println!("\n{}", about(part));
+    if part == Part::Refine {
+        println!(
+            "{:<13} {:<9} {:>2} {:<10} {:<7} {:>9} {:>3} {:>4} {:>6} {:>11} {:>11} {:>6} {:>5} {:>5} {:>5}",
+            "scheme",
+            "mesh",
+            "L",
+            "peer",
+            "regime",
+            "faces",
+            "cnt",
+            "same",
+            "diff",
+            "ours ns",
+            "peer ns",
+            "ratio",
+            "write",
+            "ours",
+            "peer"
+        );
+        println!("{:>101} {:>5} {:>11}", "", "times", "bytes bytes");
+        return;
+    }
     println!(
-        "carvel beside its peers: one thread, single precision, medians (± half the middle half)"
+        "{:<13} {:<9} {:>2} {:>10} {:>6} {:>11} {:>11} {:>6} {:>5} {:>5} ours / peer",
+        "scheme", "mesh", "L", "count", "diff", "ours ns", "peer ns", "ratio", "bytes", "bytes"
     );
-    println!("ns and bytes are per face of the result; diff is relative to the bounding box\n");
-    println!(
-        "{:<13} {:<9} {:>2} {:<10} {:<7} {:>9} {:>5} {:>5} {:>7} {:>12} {:>12} {:>6} {:>5} {:>5}",
-        "scheme",
-        "mesh",
-        "L",
-        "peer",
-        "regime",
-        "faces",
-        "count",
-        "same",
-        "diff",
-        "ours ns",
-        "peer ns",
-        "ratio",
-        "ours",
-        "peer"
-    );
-    println!("{:>94} {:>24}", "", "bytes bytes");
+}
+
+fn about(part: Part) -> &'static str {
+    match part {
+        Part::Refine => {
+            "carvel beside its peers: one thread, single precision, medians (± half the middle half)\n\
+             ns and bytes are per face of the result; diff is relative to the bounding box\n\
+             write: our time over that of writing the same bytes; (D-S): the peer runs Doo-Sabin,\n\
+             another surface by design on the same faces, so there is no diff\n"
+        }
+        Part::PerFrame => {
+            "New positions on a topology that is ready, and making the table for it, per vertex;\n\
+             bytes are those of the stencil tables\n"
+        }
+        Part::Threads => {
+            "carvel on two threads (ours) beside one (peer), wall time, re-used memory; the same bytes;\n\
+             f: per face, v: per vertex, beside the speed of copying as many bytes on two threads\n"
+        }
+        Part::Linear => {
+            "carvel on large results (ours) beside 1 M faces (peer), one thread, fresh memory, per face\n"
+        }
+    }
 }
 
 /// Prints one row.
-pub fn print_row(row: &Row) {
-    let yes = |is: bool| if is { "yes" } else { "NO" };
+pub fn print_row(part: Part, row: &Row) {
     let time = |ns: f64, spread: f64| format!("{ns:.1} ±{:.0}%", 100.0 * spread);
+    let (ours, peer) =
+        (time(row.ours_ns_per_face, row.ours_spread), time(row.peer_ns_per_face, row.peer_spread));
     let difference = row.max_difference.map_or("-".to_owned(), |x| format!("{x:.0e}"));
+    let start = format!("{:<13} {:<9} {:>2}", row.scheme, shortened(&row.mesh), row.level);
+    let [ours_bytes, peer_bytes] = bytes(row);
+    if part == Part::Refine {
+        let yes = |is: bool| if is { "yes" } else { "NO" };
+        println!(
+            "{start} {:<10} {:<7} {:>9} {:>3} {:>4} {difference:>6} {ours:>11} {peer:>11} {:>6.1} {:>5} {ours_bytes:>5} {peer_bytes:>5}",
+            peer_name(row),
+            row.regime,
+            row.faces,
+            yes(row.same_counts),
+            yes(row.same_faces),
+            row.ratio,
+            row.ours_per_write.map_or("-".to_owned(), |x| format!("{x:.1}")),
+        );
+        return;
+    }
+    let count = format!("{} {}", row.faces, &row.unit[..1]);
+    let speeds = row.ours_gb_per_s.zip(row.copy_gb_per_s);
+    let speeds =
+        speeds.map_or(String::new(), |(ours, copy)| format!(", {ours:.1} of {copy:.1} GB/s"));
     println!(
-        "{:<13} {:<9} {:>2} {:<10} {:<7} {:>9} {:>5} {:>5} {:>7} {:>12} {:>12} {:>6.1} {:>5.0} {:>5.0}",
-        row.scheme,
-        shortened(&row.mesh),
-        row.level,
-        row.peer,
-        row.regime,
-        row.faces,
-        yes(row.same_counts),
-        yes(row.same_faces),
-        difference,
-        time(row.ours_ns_per_face, row.ours_spread),
-        time(row.peer_ns_per_face, row.peer_spread),
-        row.ratio,
-        row.ours_bytes_per_face,
-        row.peer_bytes_per_face
+        "{start} {count:>10} {difference:>6} {ours:>11} {peer:>11} {:>6.2} {ours_bytes:>5} {peer_bytes:>5} {} / {}{speeds}",
+        row.ratio, row.ours_call, row.peer_call,
     );
+}
+
+/// The peer's name, with a word where it runs another scheme.
+fn peer_name(row: &Row) -> String {
+    if row.peer_call == row.scheme { row.peer.clone() } else { format!("{} (D-S)", row.peer) }
+}
+
+/// Of the tables where topology is ready; of the calls elsewhere.
+fn bytes(row: &Row) -> [String; 2] {
+    let both = if row.unit == "vertex" {
+        [row.ours_table_bytes, row.peer_table_bytes]
+    } else {
+        [Some(row.ours_bytes_per_face), Some(row.peer_bytes_per_face)]
+    };
+    both.map(|bytes| bytes.map_or("-".to_owned(), |x| format!("{x:.0}")))
 }
 
 /// A mesh's name as far as it fits.

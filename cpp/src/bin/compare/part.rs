@@ -1,0 +1,68 @@
+//! The parts of the comparison, each of which can be asked for alone.
+
+use crate::args::Args;
+use crate::regime::Regime;
+use crate::row::Row;
+use crate::{cases, linear, measure, per_frame, threads};
+
+/// What is compared.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
+pub enum Part {
+    /// One-shot refinement beside every peer.
+    Refine,
+    /// New positions on a topology that is ready, beside OpenSubdiv.
+    PerFrame,
+    /// Two threads beside one.
+    Threads,
+    /// Large results beside a small one.
+    Linear,
+}
+
+/// Takes a row, or what came in its place, as it comes.
+pub type Emit<'a> = &'a mut dyn FnMut(Result<Row, String>);
+
+impl Part {
+    /// All.
+    pub const ALL: [Self; 4] = [Self::Refine, Self::PerFrame, Self::Threads, Self::Linear];
+
+    /// The name on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Refine => "refine",
+            Self::PerFrame => "per-frame",
+            Self::Threads => "threads",
+            Self::Linear => "linear",
+        }
+    }
+
+    /// The states of memory that it is measured in.
+    pub fn regimes(self) -> &'static [Regime] {
+        match self {
+            Self::Refine => &Regime::ALL,
+            Self::PerFrame | Self::Threads => &[Regime::ReUsed],
+            Self::Linear => &[Regime::Default],
+        }
+    }
+
+    /// Measures all of it in this process.
+    pub fn run(self, regime: Regime, args: &Args, emit: Emit) -> Result<(), String> {
+        match self {
+            Self::Refine => refine(regime, args, emit),
+            Self::PerFrame => per_frame::run(args.runs, emit),
+            Self::Threads => threads::run(args.runs, emit),
+            Self::Linear => linear::run(args, emit),
+        }
+    }
+}
+
+fn refine(regime: Regime, args: &Args, emit: Emit) -> Result<(), String> {
+    for case in cases::all(args, regime)? {
+        for peer in case.peers() {
+            let row = measure::row(&case, peer, regime, args.runs);
+            let about =
+                |reason| format!("{} on {} with {}: {reason}", case.name(), case.mesh, peer.name());
+            emit(row.map_err(about));
+        }
+    }
+    Ok(())
+}
