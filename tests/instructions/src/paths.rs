@@ -10,15 +10,15 @@ pub type Path = fn(calls: u32) -> u64;
 
 /// All paths by name; the unit is a face or a row of the result.
 pub const PATHS: [(&str, Path); 12] = [
-    ("catmull-clark, 3 levels at once, face", |n| refined(Scheme::catmull_clark(), 3, n)),
-    ("catmull-clark, 1 level, face", |n| refined(Scheme::catmull_clark(), 1, n)),
+    ("catmull-clark, 3 levels at once, face", |n| refined(&Scheme::catmull_clark(), 3, n)),
+    ("catmull-clark, 1 level, face", |n| refined(&Scheme::catmull_clark(), 1, n)),
     ("loop, 3 levels at once, face", |n| triangles(3, n)),
     ("loop, 1 level, face", |n| triangles(1, n)),
-    ("doo-sabin, 1 level and 2 at once, face", |n| refined(Scheme::doo_sabin(), 3, n)),
-    ("doo-sabin, 1 level and 3 at once, face", |n| refined(Scheme::doo_sabin(), 4, n)),
-    ("doo-sabin, 1 level, face", |n| refined(Scheme::doo_sabin(), 1, n)),
-    ("three-point, 3 levels, face", |n| refined(three_point(), 3, n)),
-    ("three-point, 1 level, face", |n| refined(three_point(), 1, n)),
+    ("doo-sabin, 1 level and 2 at once, face", |n| refined(&Scheme::doo_sabin(), 3, n)),
+    ("doo-sabin, 1 level and 3 at once, face", |n| refined(&Scheme::doo_sabin(), 4, n)),
+    ("doo-sabin, 1 level, face", |n| refined(&Scheme::doo_sabin(), 1, n)),
+    ("three-point, 3 levels, face", |n| refined(&three_point(), 3, n)),
+    ("three-point, 1 level, face", |n| refined(&three_point(), 1, n)),
     ("mesh from a soup of quads, face", built),
     ("catmull-clark, stencils of level 2, row", |n| stencils(n, false)),
     ("catmull-clark, applying them to xyz, row", |n| stencils(n, true)),
@@ -65,9 +65,9 @@ fn three_point() -> Scheme {
     Scheme::three_point(w).expect("a weight in range")
 }
 
-fn refined(scheme: Scheme, levels: u32, calls: u32) -> u64 {
+fn refined(scheme: &Scheme, levels: u32, calls: u32) -> u64 {
     let torus = Torus::new(64, 32);
-    refine(&torus.mesh(), &torus.positions, &scheme, levels, calls)
+    refine(&torus.mesh(), &torus.positions, scheme, levels, calls)
 }
 
 fn triangles(levels: u32, calls: u32) -> u64 {
