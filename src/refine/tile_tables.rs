@@ -22,6 +22,7 @@
 //! first kind with as many sides as it has; the part at one of its sides is a *sector*. The
 //! quads that a level adds around it are numbered together, before those of older levels.
 
+use super::patch_grid::Place;
 use crate::base::{Result, memory};
 use crate::mesh::near::{LEADS_ALL, LEADS_NONE, LEADS_OUTER};
 
@@ -29,12 +30,9 @@ use crate::mesh::near::{LEADS_ALL, LEADS_NONE, LEADS_OUTER};
 pub(crate) const DEEPEST_TILE: u32 = 4;
 
 /// Places in a row of the array behind a tile: the longest side of the level before the
-/// last, 11, the vertices of a ring of faces around it, and one more on either side.
+/// last, 11, the vertices of a ring of faces around it, and one more on either side. The faces
+/// of the tile have the vertices from 1 on, those of the ring the vertices from 0 on.
 pub(crate) const TILE_ROW: usize = 16;
-
-/// A place in the grid of a level's vertices: x, y. The faces of the tile have the vertices
-/// from 1 on, those of a ring around it the vertices from 0 on.
-pub(crate) type Place = [i32; 2];
 
 /// The vertices of a cell, counter-clockwise from its lowest.
 pub(crate) const CELL: [Place; 4] = [[0, 0], [1, 0], [1, 1], [0, 1]];

@@ -7,8 +7,9 @@
 //! quads; the quads around them, the latest first; the tiles.
 
 use super::counts::Counts;
+use super::patch_grid::Place;
 use super::tile_tables::{
-    Foreign, Place, PlaceNumbers, SectorVertex, TILE_KINDS, TileKind, TileTables, seen_from_next,
+    Foreign, PlaceNumbers, SectorVertex, TILE_KINDS, TileKind, TileTables, seen_from_next,
     seen_from_previous,
 };
 use crate::base::{Context, Error, ErrorKind, Result, memory};
