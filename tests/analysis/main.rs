@@ -1,0 +1,3 @@
+//! What schemes do around extraordinary points.
+
+mod spectra;
