@@ -1,20 +1,7 @@
-//! How good a scheme is: the surface around extraordinary points.
+//! How good schemes are.
 //!
-//! Around a feature a step repeats itself from the second on; its rows form a small matrix
-//! whose eigenvalues and eigenvectors say where the surface goes and how smooth it is
-//! (Doo and Sabin 1978; Reif 1995; Peters and Reif, *Subdivision Surfaces*, 2008).
+//! | module | its one idea |
+//! |---|---|
+//! | `surface` | surfaces around extraordinary points, by their eigenvalues |
 
-mod characteristic;
-mod feature;
-mod local;
-mod neighbourhood;
-mod smoothness;
-mod spectrum;
-mod weights;
-
-pub use characteristic::CharacteristicMap;
-pub use feature::Feature;
-pub use local::LocalMatrix;
-pub use smoothness::{Curvature, Smoothness, Tangent};
-pub use spectrum::{Eigenvalue, Spectrum};
-pub use weights::{LimitWeights, VertexWeights};
+pub mod surface;

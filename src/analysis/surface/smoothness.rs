@@ -6,6 +6,8 @@ use crate::base::Result;
 use crate::scheme::Scheme;
 use std::fmt;
 
+/// A Jacobian is no larger than rounding makes one.
+const FLAT: f64 = 1e-6;
 /// μ/λ² is 1 if it is not farther off.
 const SAME: f64 = 1e-7;
 
@@ -91,7 +93,7 @@ impl Smoothness {
         let ratio = if lambda > 0.0 { mu / (lambda * lambda) } else { 0.0 };
         let tangent = match (spectrum.feature(), map) {
             (Feature::Crease { .. } | Feature::Corner { .. }, _) => Tangent::Sharp,
-            (_, Some(map)) if map.least_jacobian > 0.0 && map.injective => Tangent::Continuous,
+            (_, Some(map)) if map.least_jacobian > FLAT && map.injective => Tangent::Continuous,
             (_, Some(_)) => Tangent::Folded,
             (_, None) => Tangent::Undefined,
         };

@@ -146,7 +146,8 @@ fn rings(model: &Model) -> [Vec<u32>; 2] {
     let mut inner: Vec<u32> = model.innermost();
     inner.sort_unstable();
     inner.dedup();
-    let vertices = inner.iter().flat_map(|&face| mesh.layout.face(face)).map(|c| mesh.vert[c as usize]);
+    let vertices =
+        inner.iter().flat_map(|&face| mesh.layout.face(face)).map(|c| mesh.vert[c as usize]);
     let mut ring: Vec<u32> =
         vertices.flat_map(|v| mesh.fans(v)).map(|c| mesh.layout.face_of(c)).collect();
     ring.sort_unstable();
@@ -184,7 +185,13 @@ impl Sampling {
         let [inner, ring] = rings(model);
         let part = |face: u32| {
             let found = |list: &[u32]| list.binary_search(&face).is_ok();
-            if found(&inner) { Part::Inside } else if found(&ring) { Part::Ring } else { Part::Outside }
+            if found(&inner) {
+                Part::Inside
+            } else if found(&ring) {
+                Part::Ring
+            } else {
+                Part::Outside
+            }
         };
         let mut parts: Vec<Part> = (0..fine.mesh(0).faces() as u32).map(part).collect();
         for level in 1..=STEPS {
@@ -306,9 +313,7 @@ fn is_simple(outline: &[Point]) -> bool {
 
 /// True if two segments cross.
 fn cross([a, b]: [Point; 2], [c, d]: [Point; 2]) -> bool {
-    let apart = |k: usize| {
-        a[k].max(b[k]) < c[k].min(d[k]) || c[k].max(d[k]) < a[k].min(b[k])
-    };
+    let apart = |k: usize| a[k].max(b[k]) < c[k].min(d[k]) || c[k].max(d[k]) < a[k].min(b[k]);
     let side = |p: Point, q: Point, r: Point| {
         (q[0] - p[0]) * (r[1] - p[1]) - (q[1] - p[1]) * (r[0] - p[0])
     };

@@ -31,14 +31,21 @@ pub(super) struct Neighbourhood {
 }
 
 impl Neighbourhood {
-    /// Walks two meshes in step from corners that correspond, one for each sector, crossing
-    /// at most `reach` edges.
-    pub(super) fn new(meshes: [&Mesh; 2], starts: &[[u32; 2]], reach: u32) -> Self {
+    /// Walks two meshes in step from corners in the middle that correspond, crossing at most
+    /// `reach` edges. If a turn by one corner leads to the same mesh, the first corner is
+    /// where one starts and the others are its images.
+    pub(super) fn new(
+        meshes: [&Mesh; 2],
+        middle: &[[u32; 2]],
+        symmetric: bool,
+        reach: u32,
+    ) -> Self {
         let [parent, child] = meshes;
-        let steps = walk(meshes, starts[0], reach);
+        let (starts, images) = middle.split_at(if symmetric { 1 } else { middle.len() });
+        let steps = walk(meshes, starts, reach);
+        let mut corners: Vec<Vec<u32>> = vec![steps.iter().map(|step| step.corners[0]).collect()];
         // The other sectors go the same way without looking.
-        let corners: Vec<Vec<u32>> =
-            starts.iter().map(|&[start, _]| repeat(parent, start, &steps)).collect();
+        corners.extend(images.iter().map(|&[start, _]| repeat(parent, start, &steps)));
         let mut orbits: Vec<Orbit> = Vec::new();
         let mut names: HashMap<u32, Name> = HashMap::new();
         for (at, step) in steps.iter().enumerate() {
@@ -68,16 +75,17 @@ struct Step {
     /// In the parent and in the child.
     corners: [u32; 2],
     distance: u32,
-    /// The step before, and whether it was left across its edge; the first one has none.
+    /// The step before, and whether it was left across its edge; a start has none.
     from: Option<(usize, bool)>,
 }
 
 /// Goes from corner to corner in both meshes as long as they agree, breadth first.
-fn walk(meshes: [&Mesh; 2], start: [u32; 2], reach: u32) -> Vec<Step> {
+fn walk(meshes: [&Mesh; 2], starts: &[[u32; 2]], reach: u32) -> Vec<Step> {
     let [parent, child] = meshes;
     let sides = |mesh: &Mesh, corner| mesh.layout.face(mesh.layout.face_of(corner)).len();
-    let mut steps = vec![Step { corners: start, distance: 0, from: None }];
-    let mut seen = HashSet::from([start[0]]);
+    let start = |&corners: &[u32; 2]| Step { corners, distance: 0, from: None };
+    let mut steps: Vec<Step> = starts.iter().map(start).collect();
+    let mut seen: HashSet<u32> = starts.iter().map(|start| start[0]).collect();
     let mut at = 0;
     while let Some(&Step { corners: [c, d], distance, .. }) = steps.get(at) {
         if sides(parent, c) == sides(child, d) {

@@ -23,11 +23,12 @@ pub(super) fn control_reach(scheme: &Scheme) -> u32 {
 }
 
 /// The mesh around a feature after the first step, with the one after that, and the corners
-/// in the middle that correspond, one for each sector.
+/// in the middle that correspond.
 #[derive(Debug)]
 pub(super) struct Model {
     pub(super) hierarchy: Hierarchy,
-    starts: Vec<[u32; 2]>,
+    middle: Vec<[u32; 2]>,
+    symmetric: bool,
     passes: u32,
 }
 
@@ -38,19 +39,15 @@ impl Model {
         // A step looks two faces far, and each pass one more; the first step doubles the rings.
         let rings = (reach + passes).div_ceil(2) + 2;
         let mesh = feature.model(scheme, rings)?;
-        let hierarchy =
-            Hierarchy::new(&Context::serial(), mesh, scheme.clone(), STATIONARY + 1)?;
+        let hierarchy = Hierarchy::new(&Context::serial(), mesh, scheme.clone(), STATIONARY + 1)?;
         let mut corners = match scheme.split() {
             SplitKind::Corner => vec![face_corners(&hierarchy, feature)?],
             _ => vec![hierarchy.mesh(STATIONARY).fan(0).collect::<Vec<_>>()],
         };
         corners.push(children(&hierarchy, &corners[0])?);
-        let mut starts: Vec<[u32; 2]> =
+        let middle =
             corners[0].iter().zip(&corners[1]).map(|(&parent, &child)| [parent, child]).collect();
-        if !feature.is_symmetric() {
-            starts.truncate(1);
-        }
-        Ok(Self { hierarchy, starts, passes })
+        Ok(Self { hierarchy, middle, symmetric: feature.is_symmetric(), passes })
     }
 
     /// The mesh that the local matrix takes vertices from.
@@ -61,7 +58,7 @@ impl Model {
     /// The faces in the middle, in [`Model::mesh`]: one, or those around a vertex.
     pub(super) fn innermost(&self) -> Vec<u32> {
         let mesh = self.mesh();
-        let first = self.starts[0][0];
+        let first = self.middle[0][0];
         match self.hierarchy.scheme().split() {
             SplitKind::Corner => vec![mesh.layout.face_of(first)],
             _ => mesh.fan(mesh.vert[first as usize]).map(|c| mesh.layout.face_of(c)).collect(),
@@ -71,7 +68,7 @@ impl Model {
     pub(super) fn neighbourhood(&self, reach: u32) -> Neighbourhood {
         let meshes = [self.mesh(), self.hierarchy.mesh(STATIONARY + 1)];
         // Rows of those farthest out are made of others that lie hardly farther.
-        Neighbourhood::new(meshes, &self.starts, reach + 4 + self.passes)
+        Neighbourhood::new(meshes, &self.middle, self.symmetric, reach + 4 + self.passes)
     }
 
     /// Calls `row` with the composed row of each of some vertices of the child mesh.
@@ -234,7 +231,8 @@ impl<W: Weight> LocalMatrix<W> {
         chosen.sort_unstable();
         let place: HashMap<usize, usize> =
             chosen.iter().enumerate().map(|(i, &orbit)| (orbit, i)).collect();
-        let renamed = |(name, weight): (Name, W)| (Name { orbit: place[&name.orbit], ..name }, weight);
+        let renamed =
+            |(name, weight): (Name, W)| (Name { orbit: place[&name.orbit], ..name }, weight);
         let rows = chosen
             .iter()
             .map(|orbit| known.remove(orbit).unwrap_or_default().into_iter().map(renamed).collect())
@@ -283,7 +281,10 @@ impl<W: Weight> LocalMatrix<W> {
     }
 
     /// Calls `row` with every vertex of the model that has a row, and what it is made of.
-    pub(super) fn each_vertex(&self, mut row: impl FnMut(u32, &mut dyn Iterator<Item = (u32, &W)>)) {
+    pub(super) fn each_vertex(
+        &self,
+        mut row: impl FnMut(u32, &mut dyn Iterator<Item = (u32, &W)>),
+    ) {
         for (vertices, entries) in self.vertices.iter().zip(&self.rows) {
             for (turn, &vertex) in vertices.iter().enumerate() {
                 let mut turned = entries.iter().map(|(name, weight)| {
