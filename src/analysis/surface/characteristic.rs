@@ -136,7 +136,9 @@ fn orient(model: &Model, points: &mut [Point]) {
     let area = |&face: &u32| area(&polygon(mesh, points, face));
     let sum: f64 = inner.iter().chain(&ring).map(area).sum();
     if sum < 0.0 {
-        points.iter_mut().for_each(|point| point[1] = -point[1]);
+        for point in points {
+            point[1] = -point[1];
+        }
     }
 }
 

@@ -149,7 +149,9 @@ impl<W: Weight> Composed<'_, W> {
         match stage.checked_sub(1) {
             None => {
                 self.rows.split_row(vertex, &mut sink);
-                entries.into_iter().for_each(|(v, weight)| add(&mut row, v, weight));
+                for (v, weight) in entries {
+                    add(&mut row, v, weight);
+                }
             }
             Some(before) => {
                 self.rows.pass_row(before, vertex, &mut sink);
