@@ -4,6 +4,7 @@
 // What is exact is compared exactly.
 #![allow(clippy::float_cmp)]
 
+mod analysed;
 mod bench;
 mod carried;
 mod cases;

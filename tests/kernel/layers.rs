@@ -16,7 +16,7 @@ const LAYERS: [(&str, &[&str]); 12] = [
     ("scheme", &["mesh", "refine", "sparse"]),
     ("hierarchy", &["mesh", "refine", "scheme", "sparse"]),
     ("curve", &[]),
-    ("analysis", &["mesh", "refine", "sparse", "scheme", "curve"]),
+    ("analysis", &["mesh", "refine", "sparse", "scheme", "hierarchy", "curve"]),
     ("limit", &["mesh", "sparse", "scheme", "hierarchy", "analysis"]),
     ("fit", &["sparse", "hierarchy", "limit"]),
     ("io", &["mesh"]),

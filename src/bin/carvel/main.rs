@@ -9,7 +9,7 @@
 //! | `console` | every line and the progress bar on the standard error stream |
 //! | `input`, `places` | what is read, and where results go |
 //! | `faults` | mistakes in a mesh, as lines of its file |
-//! | `subdivide`, `info`, `picture`, `stencils` | the four commands |
+//! | `subdivide`, `info`, `picture`, `stencils`, `analyse` | the commands |
 //! | `topology`, `matrix` | control meshes as asked for; stencil tables as files |
 //! | `refine`, `precise` | one refinement with all its data |
 //! | `carry`, `seams` | vertex data, and names of faces |
@@ -20,6 +20,7 @@
 
 #![forbid(unsafe_code)]
 
+mod analyse;
 mod args;
 mod atomic;
 mod carry;
@@ -79,6 +80,7 @@ fn main() -> ExitCode {
         Some(Command::Info(args)) => info::run(args),
         Some(Command::Preview(args)) => picture::run(args),
         Some(Command::Stencils(args)) => stencils::run(args),
+        Some(Command::Analyse(args)) => analyse::run(args),
     };
     exit.unwrap_or_else(|failure| Console::plain().failure(&failure)).into()
 }

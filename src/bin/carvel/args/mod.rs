@@ -1,5 +1,6 @@
 //! What can be asked for on the command line.
 
+mod analyse;
 mod crease;
 mod names;
 mod owners;
@@ -7,6 +8,7 @@ mod scheme;
 mod stencils;
 mod view;
 
+pub use analyse::AnalyseArgs;
 pub use crease::CreaseArgs;
 pub use scheme::{Chosen, SchemeArgs};
 pub use stencils::{MatrixFormat, StencilArgs};
@@ -39,6 +41,8 @@ pub enum Command {
     Preview(PreviewArgs),
     /// Write the weights of refined vertices on control vertices as a sparse matrix.
     Stencils(Box<StencilArgs>),
+    /// Say how smooth a scheme's surfaces are around extraordinary points.
+    Analyse(Box<AnalyseArgs>),
 }
 
 /// Options of `carvel subdivide`.

@@ -10,7 +10,7 @@ use clap::Args;
 use std::str::FromStr;
 
 /// Options that choose a scheme.
-#[derive(Debug, Args)]
+#[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Scheme")]
 pub struct SchemeArgs {
     /// The scheme.
@@ -146,6 +146,19 @@ impl SchemeArgs {
             triangles: self.triangle_rule.map(Into::into),
             face_varying: self.uv.map(Into::into),
         }
+    }
+
+    /// The scheme asked for, with a name that stands beside the options.
+    ///
+    /// # Errors
+    /// As [`SchemeArgs::choose`]; a name and another one as an option.
+    pub(super) fn choose_named(&self, name: Option<Name>) -> Result<Chosen, Failure> {
+        let Some(name) = name else { return self.choose(SchemeTags::default()) };
+        if self.scheme != Name::default() && self.scheme != name {
+            let (name, other) = (spelled(&name), spelled(&self.scheme));
+            return Err(Failure::usage(format!("two schemes: {name} and --scheme {other}")));
+        }
+        Self { scheme: name, ..self.clone() }.choose(SchemeTags::default())
     }
 
     /// The tags that no option overrules.

@@ -1,0 +1,144 @@
+//! The command `analyse`.
+
+use crate::args::{AnalyseArgs, Chosen};
+use crate::exit::{Doing, Exit, Failure};
+use crate::report;
+use crate::session::Session;
+use carvel::Scheme;
+use carvel::analysis::surface::{
+    CharacteristicMap, Eigenvalue, Feature, LimitWeights, LocalMatrix, Smoothness, Spectrum,
+    Tangent, VertexWeights,
+};
+use serde_json::{Value, json};
+use std::fmt::Write as _;
+
+/// Analyses a scheme at some features.
+pub fn run(args: &AnalyseArgs) -> Result<Exit, Failure> {
+    let chosen = args.choose()?;
+    let session = Session::new(1, None, args.quiet || args.json)?;
+    let valences = &args.valence.0;
+    let mut found = Vec::new();
+    for (done, &faces) in valences.iter().enumerate() {
+        session.refuse_if_cancelled()?;
+        session.console.phase("analysing", &chosen.name);
+        session.console.part(done as f64 / valences.len() as f64);
+        let feature = args.feature.of(faces);
+        let analysis = Analysis::new(&chosen.scheme, feature);
+        found.push(analysis.map_err(|e| Failure::from_error(&e, Doing::Asking))?);
+    }
+    session.console.clear();
+    if args.json {
+        let list = found.iter().map(|analysis| analysis.json(&chosen)).collect();
+        return report::print(&report::document(&Value::Array(list)));
+    }
+    report::print(&table(&chosen, &found))
+}
+
+/// All that is said about one feature.
+struct Analysis {
+    spectrum: Spectrum,
+    /// Absent where points do not converge.
+    weights: Option<LimitWeights>,
+    map: Option<CharacteristicMap>,
+    smoothness: Smoothness,
+}
+
+impl Analysis {
+    fn new(scheme: &Scheme, feature: Feature) -> carvel::Result<Self> {
+        let matrix = LocalMatrix::new(scheme, feature)?;
+        let spectrum = Spectrum::new(&matrix)?;
+        let weights = match LimitWeights::new(&matrix, &spectrum) {
+            Err(e) if e.kind() == carvel::ErrorKind::Unsupported => None,
+            weights => Some(weights?),
+        };
+        let map = CharacteristicMap::new(scheme, &spectrum)?;
+        let smoothness = Smoothness::of(&spectrum, map.as_ref());
+        Ok(Self { spectrum, weights, map, smoothness })
+    }
+
+    fn faces(&self) -> usize {
+        self.spectrum.feature().faces()
+    }
+
+    fn json(&self, chosen: &Chosen) -> Value {
+        let verdict = &self.smoothness;
+        let c1 = match verdict.tangent {
+            Tangent::Continuous => json!(true),
+            Tangent::Sharp => Value::Null,
+            _ => json!(false),
+        };
+        let weights = |weights: &VertexWeights| json!(weights.orbits());
+        let tangents = self.weights.as_ref().and_then(|w| w.tangents.as_ref());
+        json!({
+            "scheme": report::scheme(chosen),
+            "feature": feature_name(self.spectrum.feature()),
+            "valence": self.faces(),
+            "lambda": verdict.lambda,
+            "mu": verdict.mu,
+            "mu_over_lambda_squared": verdict.ratio,
+            "eigenvalues": self.spectrum.all().map(number).collect::<Vec<_>>(),
+            "modes": self.spectrum.eigenvalues().iter().map(|e| json!({
+                "mode": e.mode,
+                "eigenvalue": number(*e),
+                "copies": e.copies,
+                "vectors": e.vectors,
+            })).collect::<Vec<_>>(),
+            "limit_weights": self.weights.as_ref().map(|w| weights(&w.position)),
+            "tangent_weights": tangents.map(|pair| pair.iter().map(weights).collect::<Vec<_>>()),
+            "c1": c1,
+            "tangent": verdict.tangent.to_string(),
+            "curvature": verdict.curvature.map(|c| c.to_string()),
+            "map": self.map.as_ref().map(|map| json!({
+                "least_jacobian": map.least_jacobian,
+                "samples": map.samples,
+                "injective": map.injective,
+            })),
+        })
+    }
+}
+
+/// A real number, or real and imaginary part.
+fn number(eigenvalue: Eigenvalue) -> Value {
+    match eigenvalue.value {
+        [real, 0.0] => json!(real),
+        parts => json!(parts),
+    }
+}
+
+fn feature_name(feature: Feature) -> &'static str {
+    match feature {
+        Feature::Interior { .. } => "interior",
+        Feature::Boundary { .. } => "boundary",
+        Feature::Corner { .. } => "corner",
+        Feature::Crease { .. } => "crease",
+        Feature::Dart { .. } => "dart",
+        _ => "other",
+    }
+}
+
+fn table(chosen: &Chosen, found: &[Analysis]) -> String {
+    let feature = found.first().map_or("", |a| feature_name(a.spectrum.feature()));
+    let mut text = format!("{}, {feature}\n", chosen.name);
+    text.push_str("faces      lambda          mu   mu/lambda^2   least J  verdict\n");
+    for analysis in found {
+        let verdict = &analysis.smoothness;
+        let map = analysis.map.as_ref();
+        let least = map.map_or("-".to_owned(), |map| format!("{:.3}", map.least_jacobian));
+        let curvature = verdict.curvature.map(|c| format!(", curvature {c}")).unwrap_or_default();
+        // Writing to a string does not fail.
+        let _ = writeln!(
+            text,
+            "{:5}  {:.8}  {:.8}  {:12.8}  {least:>8}  {}{curvature}",
+            analysis.faces(),
+            verdict.lambda,
+            verdict.mu,
+            verdict.ratio,
+            verdict.tangent,
+        );
+    }
+    text.push_str(
+        "Eigenvalues are computed from the scheme's own rows; least J is the smallest Jacobian of\n\
+         the characteristic map over its mean, at the samples of one ring of faces.\n",
+    );
+    text
+}

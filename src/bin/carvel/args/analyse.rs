@@ -1,0 +1,125 @@
+//! What can be asked of `carvel analyse`.
+
+use super::SchemeArgs;
+use super::names::Name;
+use crate::exit;
+use carvel::analysis::surface::Feature;
+use clap::{Args, ValueEnum};
+use std::str::FromStr;
+
+/// Options of `carvel analyse`.
+#[derive(Debug, Args)]
+#[command(after_help = exit::HELP)]
+pub struct AnalyseArgs {
+    /// The scheme; the same as --scheme.
+    #[arg(value_enum, value_name = "SCHEME")]
+    name: Option<Name>,
+    /// Faces around a vertex, or sides of a face: numbers and ranges such as 3..8,12.
+    #[arg(long, value_name = "N,...", default_value = "3..12")]
+    pub valence: Valences,
+    /// Where.
+    #[arg(long, value_enum, default_value_t, value_name = "FEATURE")]
+    pub feature: FeatureName,
+    /// The scheme and its parameters.
+    #[command(flatten)]
+    scheme: SchemeArgs,
+    /// Print JSON, with all eigenvalues and the weights of limits and tangents.
+    #[arg(long, help_heading = "Run")]
+    pub json: bool,
+    /// Print neither notes nor progress, only the table and errors.
+    #[arg(short, long, help_heading = "Run")]
+    pub quiet: bool,
+}
+
+impl AnalyseArgs {
+    /// The scheme.
+    ///
+    /// # Errors
+    /// A usage error, as of other commands; no scheme or two.
+    pub fn choose(&self) -> Result<super::Chosen, exit::Failure> {
+        self.scheme.choose_named(self.name)
+    }
+}
+
+/// A kind of place where the surface is not regular.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
+pub enum FeatureName {
+    /// A vertex or face inside the mesh
+    #[default]
+    Interior,
+    /// A vertex on the boundary with so many faces
+    Boundary,
+    /// A vertex on the boundary that is interpolated
+    Corner,
+    /// Two creases that meet, with half of the faces on either side; for catmull-clark, loop
+    Crease,
+    /// A crease that ends; for catmull-clark and loop
+    Dart,
+}
+
+impl FeatureName {
+    /// The feature with so many faces.
+    pub fn of(self, faces: usize) -> Feature {
+        match self {
+            Self::Interior => Feature::Interior { valence: faces },
+            Self::Boundary => Feature::Boundary { faces },
+            Self::Corner => Feature::Corner { faces },
+            Self::Crease => Feature::Crease { faces: [faces / 2, faces - faces / 2] },
+            Self::Dart => Feature::Dart { valence: faces },
+        }
+    }
+}
+
+/// Numbers of faces, ascending.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Valences(pub Vec<usize>);
+
+impl FromStr for Valences {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        /// No feature with more is analysed.
+        const MOST: usize = 512;
+        let number = |text: &str| -> Result<usize, String> {
+            let wrong = |_| format!("`{text}` is no number; such as 5, 3..8 or 3..8,12 is meant");
+            text.trim().parse().map_err(wrong)
+        };
+        let mut list = Vec::new();
+        for part in text.split(',') {
+            let (first, last) = match part.split_once("..") {
+                Some((first, last)) => (number(first)?, number(last.trim_start_matches('='))?),
+                None => (number(part)?, number(part)?),
+            };
+            if first > last {
+                return Err(format!("{first}..{last} is empty: the smaller number comes first"));
+            }
+            if last > MOST {
+                return Err(format!("{last}: up to {MOST} faces are analysed"));
+            }
+            list.extend(first..=last);
+        }
+        list.sort_unstable();
+        list.dedup();
+        Ok(Self(list))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn valences_are_numbers_and_ranges() {
+        for (text, list) in [
+            ("5", vec![5]),
+            ("3..5", vec![3, 4, 5]),
+            ("12, 3..4,4..5", vec![3, 4, 5, 12]),
+            ("3..=4", vec![3, 4]),
+        ] {
+            assert_eq!(text.parse::<Valences>().unwrap().0, list, "{text}");
+        }
+        for text in ["", ",", "5..3", "a", "3..", "1..1000000000000", "-1", "3..4..5"] {
+            assert!(text.parse::<Valences>().is_err(), "{text}");
+        }
+    }
+}

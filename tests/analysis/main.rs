@@ -1,0 +1,4 @@
+//! What schemes do around extraordinary points.
+
+mod exact;
+mod spectra;
