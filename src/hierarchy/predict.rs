@@ -85,6 +85,26 @@ impl Prediction {
         self.patches
     }
 
+    /// True unless the split is the dual one.
+    pub(super) fn is_primal(&self) -> bool {
+        self.primal
+    }
+
+    /// The number of smoothing passes.
+    pub(super) fn passes(&self) -> usize {
+        self.passes
+    }
+
+    /// Sharp edges of the control mesh, and sides of its joints.
+    pub(super) fn sharp_edges(&self) -> u64 {
+        self.features[0]
+    }
+
+    /// Corners that are followed by themselves where levels are done in one step.
+    pub(super) fn slots(&self) -> u64 {
+        self.slots
+    }
+
     /// The same refinement with every level by itself.
     pub(crate) fn level_by_level(mut self) -> Self {
         self.patches = 0;
