@@ -207,7 +207,8 @@ impl Prediction {
         let topology: u128 = inner.iter().skip(1).map(topology_bytes).sum();
         // Places of child quads, for the levels that get a child mesh.
         let places: u128 = inner.iter().rev().skip(1).map(|c| u128::from(c.corners)).sum();
-        let values: u128 = inner.iter().map(|c| value_bytes(c.vertices, width, size)).sum();
+        let values = inner.iter().map(|c| value_bytes(c.vertices, width, size));
+        let values = values.fold(0, u128::saturating_add);
         let stored = inner.iter().map(|c| value_bytes(c.stored_corners(), width, size)).max();
         let last = value_bytes(self.last().vertices, width, size);
         let stages = match self.passes {
