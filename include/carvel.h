@@ -995,6 +995,41 @@ CARVEL_API carvel_status carvel_predict_bytes(const carvel_mesh *mesh,
                                               uint32_t width, uint32_t value_size,
                                               carvel_bytes *bytes, carvel_error *error);
 
+/* What a refinement is estimated to take: seconds of wall time for a carvel_refiner that
+ * writes faces and values of one level. Within a factor of two, from 10000 faces on, on
+ * the machine that the constants were measured on (src/hierarchy/cost.rs); a machine of
+ * another speed scales all of them. All are finite and not negative. */
+typedef struct carvel_seconds {
+    /* sizeof(carvel_seconds). */
+    uint32_t struct_size;
+    /* The level that was asked for. */
+    uint32_t level;
+    /* Levels that are done one after the other. */
+    double steps;
+    /* The last levels, where they are done in one step. */
+    double last;
+    /* Touching fresh memory, the result's and scratch; a call with a refiner and into
+     * arrays that were used before does without. */
+    double memory;
+    /* All of it. */
+    double total;
+} carvel_seconds;
+
+/* Prepares the struct for a prediction.
+ * Errors: NULL_POINTER, MISALIGNED, STRUCT_SIZE. */
+CARVEL_API carvel_status carvel_seconds_init(carvel_seconds *seconds, uint32_t struct_size);
+
+/* The time of refining to a level; seconds->struct_size must be set. Costs as
+ * carvel_predict_counts.
+ * width, value_size: as carvel_predict_bytes.
+ * threads: of the context, 1 to 1024; each is taken to have a processor of its own.
+ * Errors: as carvel_predict_bytes. */
+CARVEL_API carvel_status carvel_predict_seconds(const carvel_mesh *mesh,
+                                                const carvel_scheme *scheme, uint32_t level,
+                                                uint32_t width, uint32_t value_size,
+                                                uint32_t threads, carvel_seconds *seconds,
+                                                carvel_error *error);
+
 /* The number of values that a channel has at a level under a scheme; those of level
  * 0 are the caller's. Costs as carvel_predict_counts.
  * values: receives the number; not NULL.

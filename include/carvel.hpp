@@ -99,6 +99,7 @@ inline namespace CARVEL_HPP_STYLE {
 
 /* Structs of carvel.h, under shorter names. */
 using Bytes = carvel_bytes;
+using Seconds = carvel_seconds;
 using Counts = carvel_counts;
 using Element = carvel_element;
 using Fraction = carvel_fraction;
@@ -1270,6 +1271,18 @@ inline Result<Bytes> try_predict_bytes(const Mesh &mesh, const Scheme &scheme,
     return call.result(bytes);
 }
 
+/* As try_predict_bytes; threads: of the context. */
+inline Result<Seconds> try_predict_seconds(const Mesh &mesh, const Scheme &scheme,
+                                           std::uint32_t level, std::uint32_t width,
+                                           std::uint32_t value_size, std::uint32_t threads = 1)
+{
+    detail::Call call;
+    Seconds seconds = detail::sized<Seconds>();
+    call.status = carvel_predict_seconds(mesh.get(), scheme.get(), level, width, value_size,
+                                         threads, &seconds, call.error());
+    return call.result(seconds);
+}
+
 namespace detail {
 
 inline Result<std::uint64_t> predict_channel(const carvel_channel *channel,
@@ -1306,6 +1319,13 @@ inline Bytes predict_bytes(const Mesh &mesh, const Scheme &scheme, std::uint32_t
                            std::uint32_t width, std::uint32_t value_size)
 {
     return try_predict_bytes(mesh, scheme, level, width, value_size).value();
+}
+
+inline Seconds predict_seconds(const Mesh &mesh, const Scheme &scheme, std::uint32_t level,
+                               std::uint32_t width, std::uint32_t value_size,
+                               std::uint32_t threads = 1)
+{
+    return try_predict_seconds(mesh, scheme, level, width, value_size, threads).value();
 }
 #endif
 

@@ -17,7 +17,7 @@ const CHUNKS_PER_THREAD: usize = 8;
 /// Elements below which a chunk is not split further.
 const SMALLEST_CHUNK: usize = 2048;
 /// The most threads of a context.
-const MOST_THREADS: usize = 1024;
+pub(crate) const MOST_THREADS: usize = 1024;
 
 type Progress = Box<dyn Fn(f64) -> bool + Send + Sync>;
 

@@ -9,6 +9,8 @@ mod scalar;
 pub(crate) mod simd;
 mod tags;
 
+#[cfg(feature = "capi")]
+pub(crate) use context::MOST_THREADS;
 pub use context::{CancelFlag, Context, ContextBuilder};
 pub use error::{Element, Error, ErrorKind, Result};
 pub use fraction::Fraction;

@@ -5,6 +5,7 @@
 
 mod channels;
 mod columns;
+mod cost;
 mod crease_angle;
 mod creases_left;
 mod dual_step;
@@ -30,6 +31,7 @@ mod values;
 #[cfg(feature = "capi")]
 pub(crate) use channels::channel_bytes;
 pub use channels::{ChannelOutput, FaceVarying, RefinedChannel};
+pub use cost::Seconds;
 pub use crease_angle::creases_by_angle;
 pub use creases_left::creases_left;
 pub use levels::Hierarchy;

@@ -85,6 +85,26 @@ impl Prediction {
         self.patches
     }
 
+    /// True unless the split is the dual one.
+    pub(super) fn is_primal(&self) -> bool {
+        self.primal
+    }
+
+    /// The number of smoothing passes.
+    pub(super) fn passes(&self) -> usize {
+        self.passes
+    }
+
+    /// Sharp edges of the control mesh, and sides of its joints.
+    pub(super) fn sharp_edges(&self) -> u64 {
+        self.features[0]
+    }
+
+    /// Corners that are followed by themselves where levels are done in one step.
+    pub(super) fn slots(&self) -> u64 {
+        self.slots
+    }
+
     /// The same refinement with every level by itself.
     pub(crate) fn level_by_level(mut self) -> Self {
         self.patches = 0;
@@ -187,7 +207,8 @@ impl Prediction {
         let topology: u128 = inner.iter().skip(1).map(topology_bytes).sum();
         // Places of child quads, for the levels that get a child mesh.
         let places: u128 = inner.iter().rev().skip(1).map(|c| u128::from(c.corners)).sum();
-        let values: u128 = inner.iter().map(|c| value_bytes(c.vertices, width, size)).sum();
+        let values = inner.iter().map(|c| value_bytes(c.vertices, width, size));
+        let values = values.fold(0, u128::saturating_add);
         let stored = inner.iter().map(|c| value_bytes(c.stored_corners(), width, size)).max();
         let last = value_bytes(self.last().vertices, width, size);
         let stages = match self.passes {

@@ -133,6 +133,8 @@ fn the_report_says_what_was_done() {
     for part in ["read", "build", "refine", "write", "preview", "total"] {
         assert!(json["seconds"][part].as_f64().unwrap() >= 0.0, "{part}");
     }
+    let predicted = json["predicted_seconds"].as_f64().unwrap();
+    assert!(predicted > 0.0 && predicted < 0.01, "{predicted} for a strip");
     let none = bench.run("subdivide strip.obj -o out.ply --json --boundary none").ok().json();
     assert_eq!(none["anchored"], false);
 }

@@ -1,6 +1,7 @@
 //! Tests of the kernel: `support` holds an independent reference, generators of
 //! random meshes and exact numbers; the rest hold the kernel against them.
 
+mod cost;
 mod creases;
 mod exact;
 mod golden;

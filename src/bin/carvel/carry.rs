@@ -35,6 +35,11 @@ pub struct Load {
 }
 
 impl Load {
+    /// Values per vertex, the coordinates among them.
+    pub fn width(&self) -> u64 {
+        3 + self.columns.iter().map(|c| c.width as u64).sum::<u64>()
+    }
+
     /// Collects the vertex data of a file. `source` gives the file's vertex for
     /// each of the mesh's, if those are not the same; texture coordinates may go another
     /// way.

@@ -53,6 +53,8 @@ pub struct Outcome {
     pub anchored: bool,
     /// Bytes of scratch memory that the kernel held.
     pub scratch: u64,
+    /// Seconds that the kernel was predicted to take, without texture coordinates.
+    pub predicted: f64,
 }
 
 impl Engine {
@@ -107,6 +109,7 @@ fn run<T: Precise>(refiner: &mut Refiner<T>, context: &Context, work: &Work) -> 
     let source = work.built.vertex_source.as_deref();
     let load = Load::of(work.control, source, texture.is_none());
     check_memory::<T>(context, work, &load, texture.as_ref())?;
+    let predicted = work.plan.seconds(load.width(), T::BYTES, context.threads()).total();
     let Filled { mut file, faces, columns, texture: refined } =
         fill(refiner, context, work, &load, texture.as_ref())?;
     let hole = holes::find(mesh, scheme, &faces)?;
@@ -131,7 +134,8 @@ fn run<T: Precise>(refiner: &mut Refiner<T>, context: &Context, work: &Work) -> 
     let mut notes: Vec<_> = load.dropped.into_iter().collect();
     notes.extend(texture.and_then(|texture| texture.note));
     let anchored = scheme.split() == SplitKind::Corner && scheme.boundary() != Boundary::None;
-    Ok(Outcome { file, notes, holes: left_out, anchored, scratch: refiner.bytes() })
+    let (scratch, holes) = (refiner.bytes(), left_out);
+    Ok(Outcome { file, notes, holes, anchored, scratch, predicted })
 }
 
 /// What the kernel makes.
@@ -238,7 +242,7 @@ fn check_memory<T: Precise>(
     texture: Option<&Texture>,
 ) -> Result<()> {
     let last = work.plan.last();
-    let width = 3 + load.columns.iter().map(|c| c.width as u64).sum::<u64>();
+    let width = load.width();
     let scratch = work.plan.scratch_bytes(width, T::BYTES);
     // In single precision the kernel's arrays exist beside the file's.
     let narrow = if T::BYTES < 8 { width * T::BYTES * last.vertices } else { 0 };

@@ -87,6 +87,8 @@ pub struct Done {
     pub seconds: Seconds,
     /// Bytes of scratch memory of the kernel, if it ran.
     pub scratch: Option<u64>,
+    /// Seconds that the kernel was predicted to take, if it ran.
+    pub predicted: Option<f64>,
     /// Whether the result is anchored.
     pub anchored: bool,
     /// Faces that were left out as holes.
@@ -136,6 +138,7 @@ fn describe(report: &mut Map<String, Value>, done: &Done) {
     report.insert("anchored".to_owned(), json!(done.anchored));
     report.insert("holes_left_out".to_owned(), json!(done.holes));
     report.insert("seconds".to_owned(), done.seconds.json());
+    report.insert("predicted_seconds".to_owned(), json!(done.predicted));
     report.insert("bytes".to_owned(), json!({ "scratch": done.scratch, "peak": memory::peak() }));
     report.insert("notes".to_owned(), json!(done.notes));
 }

@@ -52,6 +52,7 @@ struct Made {
     levels: Vec<Level>,
     anchored: bool,
     scratch: Option<u64>,
+    predicted: Option<f64>,
     holes: u64,
     notes: Vec<String>,
 }
@@ -127,8 +128,8 @@ impl Run<'_> {
         self.write(job, &made.file, &mut seconds)?;
         seconds.total = start.elapsed();
         let notes = self.tell(job, &made);
-        let Made { chosen, levels, anchored, scratch, holes, .. } = made;
-        let done = Done { chosen, levels, seconds, scratch, anchored, holes, notes };
+        let Made { chosen, levels, anchored, scratch, predicted, holes, .. } = made;
+        let done = Done { chosen, levels, seconds, scratch, predicted, anchored, holes, notes };
         if !self.args.json {
             self.session.console.summary(&self.summary(job, &done));
         }
@@ -159,7 +160,8 @@ impl Run<'_> {
         let notes = std::mem::take(&mut file.notes);
         let anchored = self.args.anchored;
         let chosen = self.chosen.clone();
-        Ok(Made { file, chosen, levels: vec![level], anchored, scratch: None, holes: 0, notes })
+        let (levels, scratch, predicted) = (vec![level], None, None);
+        Ok(Made { file, chosen, levels, anchored, scratch, predicted, holes: 0, notes })
     }
 
     /// What is asked of control meshes.
@@ -181,7 +183,8 @@ impl Run<'_> {
         let work =
             Work { control, built: &built, chosen: &chosen, levels, plan: &plan, keep_holes };
         let outcome = timed(&mut seconds.refine, || self.engine.run(&self.session.context, &work));
-        let Outcome { file, notes: lost, holes, anchored, scratch } = outcome.map_err(of_work)?;
+        let outcome = outcome.map_err(of_work)?;
+        let Outcome { file, notes: lost, holes, anchored, scratch, predicted } = outcome;
         if file.face_sizes.is_empty() {
             let message = format!("{}: all faces are holes (--keep-holes keeps them)", input.name);
             return Err(Failure::new(Exit::Mesh, message));
@@ -193,8 +196,8 @@ impl Run<'_> {
         if !chosen.has_features() {
             notes.extend(tags::ignored(&input.file, &chosen.name));
         }
-        let (levels, scratch) = (Level::all(&plan), Some(scratch));
-        Ok(Made { file, chosen, levels, anchored, scratch, holes, notes })
+        let (levels, scratch, predicted) = (Level::all(&plan), Some(scratch), Some(predicted));
+        Ok(Made { file, chosen, levels, anchored, scratch, predicted, holes, notes })
     }
 
     /// Builds the mesh with the tags that mean something to the scheme.

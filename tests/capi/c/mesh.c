@@ -491,6 +491,7 @@ static void check_predictions(void)
     carvel_scheme *scheme = scheme_of(CARVEL_SCHEME_DOO_SABIN, CARVEL_BOUNDARY_NONE);
     carvel_counts counts = predicted(mesh, scheme, 1);
     carvel_bytes bytes;
+    carvel_seconds seconds, two;
     check_context("predictions");
     CHECK_UINT(1, counts.level);
     CHECK_UINT(24, counts.vertices);
@@ -504,6 +505,16 @@ static void check_predictions(void)
     CHECK_UINT(1, bytes.level);
     CHECK_UINT(26 * 4 + 96 * 4 + 24 * 3 * 8, bytes.output);
     CHECK(bytes.topology >= 96 * 8);
+    CHECK_OK(carvel_seconds_init(&seconds, sizeof seconds));
+    CHECK_OK(carvel_predict_seconds(mesh, scheme, 1, 3, 8, 1, &seconds, failure));
+    CHECK_UINT(1, seconds.level);
+    CHECK(seconds.steps > 0 && seconds.last >= 0 && seconds.memory > 0);
+    CHECK(seconds.total == seconds.steps + seconds.last + seconds.memory);
+    /* 26 faces: not a millisecond on any machine. */
+    CHECK(seconds.total > 1e-9 && seconds.total < 1e-3);
+    two = seconds;
+    CHECK_OK(carvel_predict_seconds(mesh, scheme, 1, 3, 8, 2, &two, failure));
+    CHECK(two.total < seconds.total && two.total >= seconds.total / 2);
     carvel_scheme_destroy(scheme);
     carvel_mesh_destroy(mesh);
     poly_free(cube);

@@ -163,6 +163,7 @@ DEFINE_INIT(carvel_channel_desc)
 DEFINE_INIT(carvel_counts)
 DEFINE_INIT(carvel_survey)
 DEFINE_INIT(carvel_bytes)
+DEFINE_INIT(carvel_seconds)
 
 /* A struct made by an init function is a zeroed one with its size, so far as it
  * goes. */
@@ -235,6 +236,12 @@ static carvel_status query_bytes(const fixture *it, void *out)
     return carvel_predict_bytes(it->mesh, it->scheme, 3, 5, 8, (carvel_bytes *)out, failure);
 }
 
+static carvel_status query_seconds(const fixture *it, void *out)
+{
+    return carvel_predict_seconds(it->mesh, it->scheme, 3, 5, 8, 2, (carvel_seconds *)out,
+                                  failure);
+}
+
 static carvel_status query_level(const fixture *it, void *out)
 {
     return carvel_hierarchy_counts(it->hierarchy, 1, (carvel_counts *)out, failure);
@@ -287,6 +294,11 @@ static void check_queries(const fixture *with)
                                     offsetof(carvel_bytes, topology),
                                     offsetof(carvel_bytes, scratch),
                                     offsetof(carvel_bytes, output) };
+    static const size_t seconds[] = { offsetof(carvel_seconds, level),
+                                      offsetof(carvel_seconds, steps),
+                                      offsetof(carvel_seconds, last),
+                                      offsetof(carvel_seconds, memory),
+                                      offsetof(carvel_seconds, total) };
     versioned it = VERSIONED(carvel_counts, counts);
     check_init(&it);
     check_query(&it, query_mesh_counts, with);
@@ -298,6 +310,9 @@ static void check_queries(const fixture *with)
     it = VERSIONED(carvel_bytes, bytes);
     check_init(&it);
     check_query(&it, query_bytes, with);
+    it = VERSIONED(carvel_seconds, seconds);
+    check_init(&it);
+    check_query(&it, query_seconds, with);
 }
 
 /* ------------------------------------------------------------------- contexts */
@@ -918,6 +933,34 @@ static void check_unsupported(const fixture *with)
     carvel_scheme_destroy(loop);
 }
 
+static void check_times(const carvel_mesh *mesh, const carvel_scheme *scheme)
+{
+    carvel_seconds it, nil;
+    CHECK_OK(carvel_seconds_init(&it, sizeof it));
+    nil = it;
+    REFUSE(NULL_POINTER, carvel_predict_seconds(NULL, scheme, 1, 3, 4, 1, &it, failure));
+    REFUSE(NULL_POINTER, carvel_predict_seconds(mesh, NULL, 1, 3, 4, 1, &it, failure));
+    REFUSE(MISALIGNED,
+           carvel_predict_seconds(OFF(carvel_mesh, mesh), scheme, 1, 3, 4, 1, &it, failure));
+    REFUSE(MISALIGNED,
+           carvel_predict_seconds(mesh, OFF(carvel_scheme, scheme), 1, 3, 4, 1, &it, failure));
+    REFUSE(MISALIGNED,
+           carvel_predict_seconds(mesh, scheme, 1, 3, 4, 1, &it, OFF(carvel_error, failure)));
+    REFUSE(TOO_LARGE, carvel_predict_seconds(mesh, scheme, 65, 3, 4, 1, &it, failure));
+    REFUSE(PARAMETER_OUT_OF_RANGE,
+           carvel_predict_seconds(mesh, scheme, 1, 0, 4, 1, &it, failure));
+    REFUSE(PARAMETER_OUT_OF_RANGE,
+           carvel_predict_seconds(mesh, scheme, 1, 65537, 4, 1, &it, failure));
+    REFUSE(PARAMETER_OUT_OF_RANGE,
+           carvel_predict_seconds(mesh, scheme, 1, 3, 5, 1, &it, failure));
+    REFUSE(PARAMETER_OUT_OF_RANGE,
+           carvel_predict_seconds(mesh, scheme, 1, 3, 4, 0, &it, failure));
+    REFUSE(PARAMETER_OUT_OF_RANGE,
+           carvel_predict_seconds(mesh, scheme, 1, 3, 4, 1025, &it, failure));
+    CHECK_BYTES(&nil, &it, sizeof it);
+    CHECK_OK(carvel_predict_seconds(mesh, scheme, 1, 65536, 8, 1024, &it, failure));
+}
+
 static void check_predictions(const fixture *with)
 {
     const carvel_mesh *mesh = with->mesh;
@@ -956,6 +999,7 @@ static void check_predictions(const fixture *with)
     REFUSE(PARAMETER_OUT_OF_RANGE, carvel_predict_bytes(mesh, scheme, 1, 3, 16, &bytes, failure));
     CHECK_BYTES(&nil, &bytes, sizeof bytes);
     CHECK_OK(carvel_predict_bytes(mesh, scheme, 1, 65536, 8, &bytes, failure));
+    check_times(mesh, scheme);
 }
 
 /* ---------------------------------------------------------------- hierarchies */

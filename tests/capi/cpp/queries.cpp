@@ -257,6 +257,9 @@ static void predictions_hold()
     CHECK(bytes.output == 4 * (counts.faces + counts.corners + 3 * counts.vertices));
     CHECK(bytes.topology > 0 && bytes.scratch > 0);
     CHECK(carvel::predict_bytes(mesh, scheme, 3, 3, sizeof(double)).output > bytes.output);
+    const carvel::Seconds seconds = carvel::predict_seconds(mesh, scheme, 3, 3, sizeof(float));
+    CHECK(seconds.level == 3 && seconds.total > 0 && seconds.total < 1);
+    CHECK(carvel::predict_seconds(mesh, scheme, 3, 3, sizeof(float), 2).total < seconds.total);
 }
 
 /* Values refined by hand, with the rows that the library tells. */

@@ -53,6 +53,7 @@ fn rows(cases: &[Case], runs: u32) -> Result<Vec<Row>, String> {
         Row {
             regime: Regime::Default.name().into(),
             peer_ns_per_face: row.peer_ns_per_face / scale(i),
+            peer_cpu_ns_per_face: row.peer_cpu_ns_per_face / scale(i),
             peer_bytes_per_face: row.peer_bytes_per_face / scale(i),
             ratio: row.ratio / scale(i),
             ours_call: "refine".into(),

@@ -3,7 +3,7 @@
 use crate::args::Args;
 use crate::regime::Regime;
 use crate::row::Row;
-use crate::{cases, linear, measure, per_frame, threads};
+use crate::{cases, linear, measure, orientation, per_frame, threads};
 
 /// What is compared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
@@ -16,6 +16,8 @@ pub enum Part {
     Threads,
     /// Large results beside a small one.
     Linear,
+    /// One-shot refinement beside Rust crates.
+    Orientation,
 }
 
 /// Takes a row, or what came in its place, as it comes.
@@ -23,7 +25,8 @@ pub type Emit<'a> = &'a mut dyn FnMut(Result<Row, String>);
 
 impl Part {
     /// All.
-    pub const ALL: [Self; 4] = [Self::Refine, Self::PerFrame, Self::Threads, Self::Linear];
+    pub const ALL: [Self; 5] =
+        [Self::Refine, Self::PerFrame, Self::Threads, Self::Linear, Self::Orientation];
 
     /// The name on the command line.
     pub fn name(self) -> &'static str {
@@ -32,6 +35,7 @@ impl Part {
             Self::PerFrame => "per-frame",
             Self::Threads => "threads",
             Self::Linear => "linear",
+            Self::Orientation => "orientation",
         }
     }
 
@@ -41,6 +45,7 @@ impl Part {
             Self::Refine => &Regime::ALL,
             Self::PerFrame | Self::Threads => &[Regime::ReUsed],
             Self::Linear => &[Regime::Default],
+            Self::Orientation => &[Regime::Default, Regime::ReUsed],
         }
     }
 
@@ -51,6 +56,7 @@ impl Part {
             Self::PerFrame => per_frame::run(args.runs, emit),
             Self::Threads => threads::run(args.runs, emit),
             Self::Linear => linear::run(args, emit),
+            Self::Orientation => orientation::run(regime, args.runs, emit),
         }
     }
 }

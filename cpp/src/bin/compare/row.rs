@@ -31,6 +31,10 @@ pub struct Row {
     pub ours_ns_per_face: f64,
     /// Median.
     pub peer_ns_per_face: f64,
+    /// Processor time of all our threads; median.
+    pub ours_cpu_ns_per_face: f64,
+    /// The same of the peer.
+    pub peer_cpu_ns_per_face: f64,
     /// Peer over ours: how many times as fast we are.
     pub ratio: f64,
     /// Half the range of the middle half of the runs, relative to the median.
@@ -83,6 +87,8 @@ impl Row {
             faces,
             ours_ns_per_face: per_face(1e9 * ours.time()),
             peer_ns_per_face: per_face(1e9 * peer.time()),
+            ours_cpu_ns_per_face: per_face(1e9 * ours.cpu()),
+            peer_cpu_ns_per_face: per_face(1e9 * peer.cpu()),
             ratio: peer.time() / ours.time(),
             ours_spread: ours.spread(),
             peer_spread: peer.spread(),

@@ -1,4 +1,4 @@
-//! The tables, at most 120 columns wide.
+//! The tables, at most 124 columns wide.
 
 use crate::part::Part;
 use crate::row::Row;
@@ -6,9 +6,9 @@ use crate::row::Row;
 /// Prints what the columns are.
 pub fn print_head(part: Part) {
     println!("\n{}", about(part));
-    if part == Part::Refine {
+    if one_shot(part) {
         println!(
-            "{:<13} {:<9} {:>2} {:<10} {:<7} {:>9} {:>3} {:>4} {:>6} {:>11} {:>11} {:>6} {:>5} {:>5} {:>5}",
+            "{:<13} {:<9} {:>2} {:<14} {:<7} {:>9} {:>3} {:>4} {:>6} {:>11} {:>11} {:>6} {:>5} {:>5} {:>5}",
             "scheme",
             "mesh",
             "L",
@@ -25,13 +25,18 @@ pub fn print_head(part: Part) {
             "ours",
             "peer"
         );
-        println!("{:>101} {:>5} {:>11}", "", "times", "bytes bytes");
+        println!("{:>105} {:>5} {:>11}", "", "times", "bytes bytes");
         return;
     }
     println!(
         "{:<13} {:<9} {:>2} {:>10} {:>6} {:>11} {:>11} {:>6} {:>5} {:>5} ours / peer",
         "scheme", "mesh", "L", "count", "diff", "ours ns", "peer ns", "ratio", "bytes", "bytes"
     );
+}
+
+/// Faces and positions from a control mesh, beside other libraries.
+fn one_shot(part: Part) -> bool {
+    matches!(part, Part::Refine | Part::Orientation)
 }
 
 fn about(part: Part) -> &'static str {
@@ -48,10 +53,16 @@ fn about(part: Part) -> &'static str {
         }
         Part::Threads => {
             "carvel on two threads (ours) beside one (peer), wall time, re-used memory; the same bytes;\n\
+             medians of turns of five calls in a row; cpu: processor time of two threads and of one;\n\
+             held: each thread on a processor of its own, otherwise where the system puts it;\n\
              f: per face, v: per vertex, beside the speed of copying as many bytes on two threads\n"
         }
         Part::Linear => {
             "carvel on large results (ours) beside 1 M faces (peer), one thread, fresh memory, per face\n"
+        }
+        Part::Orientation => {
+            "carvel beside Rust crates: one thread, single precision, medians (± half the middle half)\n\
+             ns and bytes are per face of the result; diff is relative to the bounding box\n"
         }
     }
 }
@@ -64,10 +75,10 @@ pub fn print_row(part: Part, row: &Row) {
     let difference = row.max_difference.map_or("-".to_owned(), |x| format!("{x:.0e}"));
     let start = format!("{:<13} {:<9} {:>2}", row.scheme, shortened(&row.mesh), row.level);
     let [ours_bytes, peer_bytes] = bytes(row);
-    if part == Part::Refine {
+    if one_shot(part) {
         let yes = |is: bool| if is { "yes" } else { "NO" };
         println!(
-            "{start} {:<10} {:<7} {:>9} {:>3} {:>4} {difference:>6} {ours:>11} {peer:>11} {:>6.1} {:>5} {ours_bytes:>5} {peer_bytes:>5}",
+            "{start} {:<14} {:<7} {:>9} {:>3} {:>4} {difference:>6} {ours:>11} {peer:>11} {:>6.1} {:>5} {ours_bytes:>5} {peer_bytes:>5}",
             peer_name(row),
             row.regime,
             row.faces,
@@ -82,8 +93,13 @@ pub fn print_row(part: Part, row: &Row) {
     let speeds = row.ours_gb_per_s.zip(row.copy_gb_per_s);
     let speeds =
         speeds.map_or(String::new(), |(ours, copy)| format!(", {ours:.1} of {copy:.1} GB/s"));
+    let cpu = if part == Part::Threads {
+        format!(", cpu {:.1} / {:.1}", row.ours_cpu_ns_per_face, row.peer_cpu_ns_per_face)
+    } else {
+        String::new()
+    };
     println!(
-        "{start} {count:>10} {difference:>6} {ours:>11} {peer:>11} {:>6.2} {ours_bytes:>5} {peer_bytes:>5} {} / {}{speeds}",
+        "{start} {count:>10} {difference:>6} {ours:>11} {peer:>11} {:>6.2} {ours_bytes:>5} {peer_bytes:>5} {} / {}{cpu}{speeds}",
         row.ratio, row.ours_call, row.peer_call,
     );
 }

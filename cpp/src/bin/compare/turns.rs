@@ -12,6 +12,8 @@ pub type Clock = fn() -> f64;
 #[derive(Default)]
 pub struct Taken {
     seconds: Vec<f64>,
+    /// Processor time of all threads.
+    cpu: Vec<f64>,
     bytes: Vec<f64>,
 }
 
@@ -19,6 +21,11 @@ impl Taken {
     /// The median in seconds.
     pub fn time(&self) -> f64 {
         median(&self.seconds)
+    }
+
+    /// The median processor time in seconds.
+    pub fn cpu(&self) -> f64 {
+        median(&self.cpu)
     }
 
     /// Half the range of the middle half of the times, relative to the median.
@@ -47,9 +54,10 @@ impl Taken {
     }
 
     fn clock(&mut self, side: &mut dyn Side, clock: Clock) -> Result<(), String> {
-        let start = clock();
+        let start = [clock(), heap::cpu_seconds()];
         side.call()?;
-        self.seconds.push(clock() - start);
+        self.seconds.push(clock() - start[0]);
+        self.cpu.push(heap::cpu_seconds() - start[1]);
         Ok(())
     }
 }
@@ -69,20 +77,33 @@ pub fn fresh(sides: &mut [&mut dyn Side], runs: u32) -> Result<Vec<Taken>, Strin
 /// All sides in turn, after a call of each that touches the memory; what it touched is
 /// the peak, since later calls touch no more.
 pub fn warmed(sides: &mut [&mut dyn Side], runs: u32, clock: Clock) -> Result<Vec<Taken>, String> {
+    several(sides, runs, 1, clock)
+}
+
+/// The same with some calls of a side after each other in its turn.
+pub fn several(
+    sides: &mut [&mut dyn Side],
+    runs: u32,
+    calls: u32,
+    clock: Clock,
+) -> Result<Vec<Taken>, String> {
     let mut taken: Vec<_> = sides.iter().map(|_| Taken::default()).collect();
     for (side, taken) in sides.iter_mut().zip(&mut taken) {
         heap::trim();
         taken.watch(*side, clock)?;
         taken.seconds.clear();
+        taken.cpu.clear();
     }
     for side in sides.iter_mut() {
         side.clear();
     }
     for _ in 0..runs {
         for (side, taken) in sides.iter_mut().zip(&mut taken) {
-            side.prepare()?;
-            taken.clock(*side, clock)?;
-            side.clear();
+            for _ in 0..calls {
+                side.prepare()?;
+                taken.clock(*side, clock)?;
+                side.clear();
+            }
         }
     }
     Ok(taken)
