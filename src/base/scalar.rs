@@ -125,6 +125,7 @@ impl Scalar for f32 {
         lanes.to_array()
     }
 
+    #[inline(always)]
     fn from_f64(value: f64) -> Self {
         value as f32
     }
@@ -153,6 +154,7 @@ impl Scalar for f64 {
         lanes.to_array()
     }
 
+    #[inline(always)]
     fn from_f64(value: f64) -> Self {
         value
     }

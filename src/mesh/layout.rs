@@ -106,6 +106,18 @@ impl Layout {
         }
     }
 
+    /// The corners of the face of a corner.
+    #[inline(always)]
+    pub(crate) fn face_around(&self, corner: u32) -> Range<u32> {
+        let first = self.irregular_corners();
+        if corner < first {
+            return self.face(self.face_of[corner as usize]);
+        }
+        let local = corner - first;
+        let within = if self.side == 4 { local % 4 } else { local % 3 };
+        corner - within..corner - within + self.side
+    }
+
     #[inline]
     pub(crate) fn face_of(&self, corner: u32) -> u32 {
         let first = self.irregular_corners();
@@ -183,6 +195,7 @@ mod tests {
                 let face = layout.face(f);
                 for c in face.clone() {
                     assert_eq!(layout.face_of(c), f);
+                    assert_eq!(layout.face_around(c), face);
                     let next = if c + 1 == face.end { face.start } else { c + 1 };
                     assert_eq!(layout.next(c), next);
                     assert_eq!(layout.prev(next), c);

@@ -112,12 +112,21 @@ impl<'a> PrimalSplit<'a> {
         pieces: Pieces,
         memory: &mut EdgeNumbers,
     ) -> Result<Self> {
+        let edges = EdgeNumbers::new(context, parent, memory)?;
+        Ok(Self { edges, ..Self::by_corners(parent, pieces)? })
+    }
+
+    /// The split without numbers of edges, which rows that are asked for by corners and old
+    /// vertices do without.
+    ///
+    /// # Errors
+    /// As [`PrimalSplit::new`].
+    pub(crate) fn by_corners(parent: &'a Mesh, pieces: Pieces) -> Result<Self> {
         let counts = Self::split_counts(&Counts::sizes_of(parent), pieces)
             .ok_or_else(|| Error::new(ErrorKind::TooLarge, "the split exceeds 64-bit sizes"))?;
         counts.check_index_type()?;
         let arounds = Arounds::new(parent)?;
-        let edges = EdgeNumbers::new(context, parent, memory)?;
-        Ok(Self { parent, pieces, counts, edges, arounds })
+        Ok(Self { parent, pieces, counts, edges: EdgeNumbers::default(), arounds })
     }
 
     /// The counts of the split mesh, `None` past 64 bits.

@@ -142,7 +142,7 @@ impl<T: Scalar> StencilTable<T> {
     }
 
     /// The entries of some rows.
-    pub(super) fn entries_of(&self, rows: Range<usize>) -> Range<usize> {
+    pub(crate) fn entries_of(&self, rows: Range<usize>) -> Range<usize> {
         self.offsets[rows.start] as usize..self.offsets[rows.end] as usize
     }
 

@@ -1,5 +1,6 @@
-//! Meshes with regular parts, whose rows are copied: the same as refinement everywhere,
-//! beside boundaries, creases, extraordinary vertices and faces that are no quads too.
+//! Rows that are copied from face to face: the same as refinement everywhere, beside
+//! boundaries, creases, extraordinary vertices and faces that are no quads too, and the same
+//! entries as one step's table after the other.
 
 use carvel::mesh::{BuildOptions, build};
 use carvel::{Context, Crease, Hierarchy, Interpolation, Mesh, Scheme, SharpVertex};
@@ -55,7 +56,123 @@ fn schemes() -> [Scheme; 3] {
     ]
 }
 
+/// A torus of quads, of which `seed` makes some pairs hexagons, some two and some four
+/// triangles: valences from 3 to 9. Without `quads` there are triangles only.
+fn mixed(n: u32, m: u32, seed: u32, quads: bool) -> Mesh {
+    let at = |i: u32, j: u32| i % n * m + j % m;
+    let kind = |face: u32| (face + seed).wrapping_mul(2_654_435_761) >> 13 & 7;
+    let (mut sizes, mut faces, mut vertices) = (Vec::new(), Vec::new(), n * m);
+    let mut add = |face: &[u32]| {
+        sizes.push(face.len() as u32);
+        faces.extend(face);
+    };
+    for i in 0..n {
+        let mut j = 0;
+        while j < m {
+            let face = i * m + j;
+            let mut quad = [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+            let hexagon = quads && kind(face) == 0 && j + 1 < m;
+            quad.rotate_left((face * 7 % 4) as usize * usize::from(!hexagon));
+            let [a, b, c, d] = quad;
+            match kind(face) {
+                0 if hexagon => {
+                    j += 1;
+                    add(&[a, b, c, at(i + 1, j + 1), at(i, j + 1), d]);
+                }
+                1 | 2 => {
+                    for (a, b) in [(a, b), (b, c), (c, d), (d, a)] {
+                        add(&[a, b, vertices]);
+                    }
+                    vertices += 1;
+                }
+                3 | 4 if quads => add(&quad),
+                5.. if quads && n > 4 => add(&quad),
+                _ => {
+                    add(&[a, b, c]);
+                    add(&[a, c, d]);
+                }
+            }
+            j += 1;
+        }
+    }
+    let options = BuildOptions::default();
+    let built = build(&Context::serial(), vertices as usize, &sizes, &faces, &options);
+    built.expect("a torus").mesh
+}
+
+/// A cube, a tetrahedron and a tube that is three faces around: rings that meet themselves.
+fn small() -> [Mesh; 3] {
+    let cube = [0, 1, 3, 2, 4, 6, 7, 5, 0, 4, 5, 1, 2, 3, 7, 6, 0, 2, 6, 4, 1, 5, 7, 3];
+    let tetrahedron = [0, 1, 2, 0, 2, 3, 0, 3, 1, 1, 3, 2];
+    let tube = (0..15).flat_map(|face| {
+        let (i, j) = (face / 3, face % 3);
+        let at = |i: u32, j: u32| i % 5 * 3 + j % 3;
+        [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)]
+    });
+    let mesh = |n, sizes: &[u32], faces: &[u32]| Mesh::from_polygons(n, sizes, faces);
+    [
+        mesh(8, &[4; 6], &cube).expect("a cube"),
+        mesh(4, &[3; 4], &tetrahedron).expect("a tetrahedron"),
+        mesh(15, &[4; 15], &tube.collect::<Vec<_>>()).expect("a tube"),
+    ]
+}
+
 const LEVELS: u32 = 4;
+
+#[test]
+fn rows_of_faces_alike_are_those_of_refinement() {
+    let context = Context::serial();
+    let quads = (0..3).map(|seed| mixed(7, 5, seed, true)).chain(small());
+    let triangles = (0..2).map(|seed| mixed(5, 6, seed, false));
+    let of = |scheme: Scheme| move |mesh| (mesh, scheme.clone());
+    let [plain, tuned, linear] = schemes();
+    let cases = quads.map(of(plain)).chain(triangles.map(of(Scheme::loop_triangles())));
+    let others = [(mixed(7, 5, 9, true), tuned), (mixed(7, 5, 8, true), linear)];
+    for (mesh, scheme) in cases.chain(others) {
+        let hierarchy = Hierarchy::new(&context, mesh, scheme, 3).expect("small");
+        let mut control = rough::<f64>(3 * hierarchy.mesh(0).vertices(), 1);
+        for from in 0..=1 {
+            for to in from..=3 {
+                let task = StencilTask { from, ..StencilTask::level(to) };
+                check(&hierarchy, &task, &control);
+                check_product(&hierarchy, &task);
+            }
+            control = step(
+                &hierarchy,
+                1,
+                Interpolation::Vertex,
+                &rough(3 * hierarchy.mesh(0).vertices(), 1),
+            );
+        }
+    }
+}
+
+/// A single step has no pattern of patterns: their product is another way to the same table.
+fn check_product(hierarchy: &Hierarchy, task: &StencilTask) {
+    let context = Context::serial();
+    let table: StencilTable<f64> = hierarchy.stencils(&context, task).expect("small");
+    let make = |from: u32, to: u32| {
+        let task = StencilTask { from, to, ..*task };
+        hierarchy.stencils::<f64>(&context, &task).expect("small")
+    };
+    let product = (task.from..task.to).fold(make(task.from, task.from), |product, level| {
+        product.compose(&context, &make(level, level + 1)).expect("tables that fit")
+    });
+    for row in 0..table.rows() {
+        let sorted = |table: &StencilTable<f64>| {
+            let (columns, weights) = table.row(row);
+            let mut row: Vec<_> = columns.iter().copied().zip(weights.iter().copied()).collect();
+            row.sort_unstable_by_key(|entry| entry.0);
+            row
+        };
+        let (found, expected) = (sorted(&table), sorted(&product));
+        let columns = |row: &[(u32, f64)]| row.iter().map(|entry| entry.0).collect::<Vec<_>>();
+        assert_eq!(columns(&found), columns(&expected), "{task:?}: row {row}");
+        for (a, b) in found.iter().zip(&expected) {
+            assert!((a.1 - b.1).abs() <= 4e-15 * b.1.abs(), "{task:?}: row {row}: {a:?}, {b:?}");
+        }
+    }
+}
 
 #[test]
 fn copied_rows_are_those_of_refinement() {

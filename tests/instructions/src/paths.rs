@@ -9,7 +9,7 @@ use carvel::{
 pub type Path = fn(calls: u32) -> u64;
 
 /// All paths by name; the unit is a face or a row of the result.
-pub const PATHS: [(&str, Path); 12] = [
+pub const PATHS: [(&str, Path); 14] = [
     ("catmull-clark, 3 levels at once, face", |n| refined(&Scheme::catmull_clark(), 3, n)),
     ("catmull-clark, 1 level, face", |n| refined(&Scheme::catmull_clark(), 1, n)),
     ("loop, 3 levels at once, face", |n| triangles(3, n)),
@@ -20,8 +20,10 @@ pub const PATHS: [(&str, Path); 12] = [
     ("three-point, 3 levels, face", |n| refined(&three_point(), 3, n)),
     ("three-point, 1 level, face", |n| refined(&three_point(), 1, n)),
     ("mesh from a soup of quads, face", built),
-    ("catmull-clark, stencils of level 2, row", |n| stencils(n, false)),
-    ("catmull-clark, applying them to xyz, row", |n| stencils(n, true)),
+    ("catmull-clark, stencils of level 2, row", stencils),
+    ("catmull-clark, stencils of the cow at level 4, row", cow_stencils),
+    ("loop, stencils of level 2, row", loop_stencils),
+    ("catmull-clark, applying them to xyz, row", applied),
 ];
 
 /// A torus of quads: positions and the faces' vertices.
@@ -97,17 +99,50 @@ fn built(calls: u32) -> u64 {
     torus.quads.len() as u64 / 4
 }
 
-/// Makes tables, or one that is applied again and again.
-fn stencils(calls: u32, apply: bool) -> u64 {
+/// Makes tables.
+fn tables(mesh: Mesh, scheme: Scheme, level: u32, calls: u32) -> u64 {
+    let serial = Context::serial();
+    let hierarchy = Hierarchy::new(&serial, mesh, scheme, level - 1).expect("a hierarchy");
+    let make = || hierarchy.stencils::<f32>(&serial, &StencilTask::level(level)).expect("a table");
+    (1..calls).for_each(|_| drop(std::hint::black_box(make())));
+    make().rows() as u64
+}
+
+fn stencils(calls: u32) -> u64 {
+    tables(Torus::new(64, 32).mesh(), Scheme::catmull_clark(), 2, calls)
+}
+
+fn cow_stencils(calls: u32) -> u64 {
+    tables(cow(), Scheme::catmull_clark(), 4, calls)
+}
+
+fn loop_stencils(calls: u32) -> u64 {
+    tables(Torus::new(64, 32).triangles(), Scheme::loop_triangles(), 2, calls)
+}
+
+/// A mesh of faces of three to five sides, hardly two alike with what is around them.
+fn cow() -> Mesh {
+    let file = include_str!("../../../assets/spot/spot_control_mesh.obj");
+    let (mut vertices, mut sizes, mut indices) = (0, Vec::new(), Vec::new());
+    for line in file.lines() {
+        vertices += usize::from(line.starts_with("v "));
+        let corners = line.strip_prefix("f ").into_iter().flat_map(str::split_whitespace);
+        let number = |corner: &str| corner.split('/').next()?.parse::<u32>().ok();
+        let face: Vec<u32> = corners.map(|c| number(c).expect("a vertex") - 1).collect();
+        if !face.is_empty() {
+            sizes.push(face.len() as u32);
+            indices.extend(face);
+        }
+    }
+    Mesh::from_polygons(vertices, &sizes, &indices).expect("the cow")
+}
+
+/// Applies a table.
+fn applied(calls: u32) -> u64 {
     let (torus, serial) = (Torus::new(64, 32), Context::serial());
     let hierarchy = Hierarchy::new(&serial, torus.mesh(), Scheme::catmull_clark(), 1);
     let hierarchy = hierarchy.expect("a hierarchy");
-    let make = || hierarchy.stencils::<f32>(&serial, &StencilTask::level(2)).expect("a table");
-    let table = make();
-    if !apply {
-        (1..calls).for_each(|_| drop(std::hint::black_box(make())));
-        return table.rows() as u64;
-    }
+    let table = hierarchy.stencils::<f32>(&serial, &StencilTask::level(2)).expect("a table");
     let mut out = vec![0.0; 3 * table.rows()];
     let from = Records::packed(&torus.positions, 3);
     for _ in 0..calls {
