@@ -1,8 +1,10 @@
 //! The values of one dual step: rows applied where they are needed, kernels elsewhere.
 
 use super::kernel::{
-    QuadWeights, Value, corner_grid, grid_children, quad_corners, touches_rim, vertex_grid,
+    QuadWeights, Value, corner_grid, grid_children, narrow, quad_corners, star, touches_rim,
+    vertex_grid, widen,
 };
+use super::regular_rule::RegularRule;
 use super::step::{Scratch, Sum, accumulate};
 use crate::base::{Context, Result, Scalar, memory};
 use crate::mesh::QuadWalker;
@@ -88,7 +90,8 @@ impl<'a> DualStep<'a> {
         )
     }
 
-    /// The split and the first pass in one go.
+    /// The split and the first pass in one go: by the regular rule at all regular vertices, so
+    /// that it does not matter what their quads are like elsewhere.
     fn fused<T: Scalar, const W: usize>(
         &self,
         context: &Context,
@@ -96,16 +99,22 @@ impl<'a> DualStep<'a> {
         irregular: &[Value<T, W>],
         out: &mut [Value<T, W>],
     ) -> Result<()> {
-        let taps = narrow(self.scheme.fused_taps());
+        let rule = rule(self.scheme.fused_taps());
         self.every_child(
             context,
             out,
             || (DualRows::new(self.scheme, self.split), SplitSum::new(self, values, irregular)),
             |corner| {
                 let grid = vertex_grid(self.quads, corner, self.mirrors)?;
-                Some(grid_children(taps, &grid, values))
+                Some(grid_children(rule, &grid, values))
             },
-            |(rows, sum), v| sum.of(|sink| rows.pass_row(0, v, sink)),
+            |(rows, sum), v| match star(self.quads, v, self.mirrors) {
+                Some(star) => {
+                    let around = star.map(|row| row.map(|v| widen(&values[v as usize])));
+                    narrow::<T, W>(rule.around_vertex(around)[0])
+                }
+                None => sum.of(|sink| rows.pass_row(0, v, sink)),
+            },
         )
     }
 
@@ -117,12 +126,12 @@ impl<'a> DualStep<'a> {
         values: &[Value<T, W>],
         out: &mut [Value<T, W>],
     ) -> Result<()> {
-        let taps = narrow(self.scheme.pass_taps(pass));
+        let rule = rule(self.scheme.pass_taps(pass));
         self.every_child(
             context,
             out,
             || (DualRows::new(self.scheme, self.split), Sum::new(values)),
-            |corner| corner_grid(self.quads, corner).map(|grid| grid_children(taps, &grid, values)),
+            |corner| corner_grid(self.quads, corner).map(|grid| grid_children(rule, &grid, values)),
             |(rows, sum), v| sum.of(|sink| rows.pass_row(pass, v, sink)),
         )
     }
@@ -162,9 +171,9 @@ impl<'a> DualStep<'a> {
     }
 }
 
-/// Taps in the working precision.
-fn narrow<T: Scalar>(taps: Option<Taps<f64>>) -> Taps<T> {
-    taps.expect("the pass exists").map(T::from_f64)
+/// The rule of a pass that exists, in the working precision.
+fn rule<T: Scalar>(taps: Option<Taps<f64>>) -> RegularRule<T> {
+    RegularRule::new(taps.expect("the pass exists"))
 }
 
 /// A row on split points, which are computed when asked for: those of quads

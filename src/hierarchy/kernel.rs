@@ -1,13 +1,14 @@
 //! The inner loops: regular quads, four children at a time.
 //!
 //! A quad whose vertices are interior of valence 4, among quads only, has its
-//! four children in one 4×4 grid of values; a tensor product of three taps gives
-//! all of them. Whether a face is such a one is found out while gathering, which
+//! four children in one 4×4 grid of values, which gives all of them
+//! (`regular_rule`). Whether a face is such a one is found out while gathering, which
 //! costs less than keeping lists of those that are not.
 
+use super::regular_rule::RegularRule;
 use crate::base::{Fraction, NONE, Scalar};
 use crate::mesh::QuadWalker;
-use crate::scheme::{CornerWeights, Scheme, Taps};
+use crate::scheme::{CornerWeights, Scheme};
 
 /// A value of `W` lanes.
 pub(super) type Value<T, const W: usize> = [T; W];
@@ -22,12 +23,6 @@ pub(super) fn widen<T: Scalar, const W: usize>(value: &Value<T, W>) -> T::Lanes 
 pub(super) fn narrow<T: Scalar, const W: usize>(lanes: T::Lanes) -> Value<T, W> {
     let lanes = T::unlaned(lanes);
     std::array::from_fn(|lane| lanes[lane])
-}
-
-/// Three taps, lane by lane, in order.
-#[inline(always)]
-fn filter<T: Scalar>(taps: Taps<T>, x: [T::Lanes; 3]) -> T::Lanes {
-    x[0] * taps[0] + x[1] * taps[1] + x[2] * taps[2]
 }
 
 /// The corner operator of a scheme's split on quads.
@@ -132,18 +127,37 @@ pub(super) fn corner_grid(quads: QuadWalker, corner: u32) -> Option<Grid> {
     })
 }
 
-/// The tensor product of three taps at the four inner places of a grid.
+/// What the corners of a quad become, from the grid around it.
 #[inline(always)]
 pub(super) fn grid_children<T: Scalar, const W: usize>(
-    taps: Taps<T>,
+    rule: RegularRule<T>,
     grid: &Grid,
     values: &[Value<T, W>],
 ) -> [Value<T, W>; 4] {
-    let at = |i: u32| widen(&values[i as usize]);
-    let rows = grid.rows().map(|row| row.map(at));
-    let left = rows.map(|r| filter::<T>(taps, [r[0], r[1], r[2]]));
-    let right = rows.map(|r| filter::<T>(taps, [r[3], r[2], r[1]]));
-    let low = |x: &[T::Lanes; 4]| narrow::<T, W>(filter::<T>(taps, [x[0], x[1], x[2]]));
-    let high = |x: &[T::Lanes; 4]| narrow::<T, W>(filter::<T>(taps, [x[3], x[2], x[1]]));
-    [low(&left), low(&right), high(&right), high(&left)]
+    let rows = grid.rows();
+    let at = |x: usize, y: usize| widen::<T, W>(&values[rows[y][x] as usize]);
+    let row = |y: usize| [at(0, y), at(1, y), at(2, y), at(3, y)];
+    rule.around_quad([row(0), row(1), row(2), row(3)]).map(narrow::<T, W>)
+}
+
+/// The vertices around the vertex of a corner, row by row with the corner's face to the upper
+/// right, if the vertex is interior of valence 4 among quads; `mirrors` as in [`vertex_grid`].
+pub(super) fn star(quads: QuadWalker, corner: u32, mirrors: bool) -> Option<[[u32; 3]; 3]> {
+    let vert = |corner: u32| quads.mesh.vert[corner as usize];
+    let regular = |c: u32| quads.holds(c) && !(mirrors && touches_rim(quads, quads.face_start(c)));
+    if !quads.holds(corner) || quads.mesh.special_set.contains(vert(corner)) {
+        return None;
+    }
+    let mut corners = [corner; 4];
+    for i in 0..4 {
+        if !regular(corners[i]) {
+            return None;
+        }
+        if i < 3 {
+            corners[i + 1] = quads.mesh.twin[quads.turn(corners[i], 3) as usize];
+        }
+    }
+    let [e, n, w, s] = corners.map(|c| vert(quads.turn(c, 1)));
+    let [ne, nw, sw, se] = corners.map(|c| vert(quads.turn(c, 2)));
+    Some([[sw, s, se], [w, vert(corner), e], [nw, n, ne]])
 }

@@ -18,6 +18,7 @@ mod predict;
 mod primal_kernel;
 mod primal_step;
 mod refiner;
+mod regular_rule;
 mod stencil_block;
 mod stencil_build;
 mod stencil_copies;
@@ -31,6 +32,8 @@ mod stencils;
 mod step;
 mod tile_centres;
 mod tile_kernel;
+mod tile_rings;
+mod tile_smoothing;
 mod tile_step;
 mod values;
 

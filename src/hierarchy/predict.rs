@@ -232,7 +232,8 @@ impl Prediction {
     /// which sides each leads, what its corners become, and tables, and for the corners of
     /// extraordinary vertices four lanes of their neighbours for each level; of tiles the first
     /// vertex of each, tables, and for the corners of faces that are no quads four lanes for each
-    /// level.
+    /// level; with a pass the values of the first level, and at those corners four children for
+    /// each level, nine split points, and the one that a level by itself stores.
     fn patch_bytes(&self, depth: u32, width: u64, size: u64) -> u64 {
         let levels = self.levels[..self.levels.len() - depth as usize].to_vec();
         let parent = levels[levels.len() - 1];
@@ -251,7 +252,14 @@ impl Prediction {
             let tables = each_table(128) + lanes(2 * 2048) + (16 << 10);
             (tables, 5 * faces + corners, 16 + lanes(depth + 4))
         } else {
-            (each_table(256) + lanes(2 * 256) + (16 << 10), 4 * faces, lanes(depth + 1))
+            let first = &self.levels[self.levels.len() - depth as usize];
+            let (first, each_slot) = if self.passes == 0 {
+                (0, lanes(depth + 1))
+            } else {
+                let split_points = value_bytes(parent.stored_corners(), width, size);
+                (value_bytes(first.vertices, width, size) + split_points, lanes(4 * depth + 9))
+            };
+            (each_table(256) + lanes(2 * 512) + (16 << 10), 4 * faces + first, each_slot)
         };
         let slots = u128::from(self.slots).saturating_mul(each_slot);
         let copies = self.copy_bytes(width, size);
@@ -267,10 +275,11 @@ fn patch_depth(mesh: &Mesh, scheme: &Scheme, levels: &[Counts]) -> u32 {
     /// Fewer patches do not pay for their tables.
     const FEWEST: u64 = 256;
     let last = levels.len() - 1;
-    if !scheme.passes().is_empty() {
+    let corner = scheme.split() == SplitKind::Corner;
+    if scheme.passes().len() > usize::from(corner) {
         return 0;
     }
-    if scheme.split() == SplitKind::Corner {
+    if corner {
         let fits = |&depth: &u32| {
             let parent = last - depth as usize;
             levels[parent].faces >= FEWEST && Tiles::fit(&levels[parent - 1])

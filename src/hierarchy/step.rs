@@ -93,7 +93,7 @@ impl<'a> Step<'a> {
             Kind::Dual(step) => step.apply(context, values, out, scratch),
             Kind::Primal(step) => step.apply(context, values, out, scratch),
             Kind::Patches(step) => step.apply(context, values, out, scratch),
-            Kind::Tiles(step) => step.apply(context, values, out),
+            Kind::Tiles(step) => step.apply(context, values, out, scratch),
         }
     }
 }
@@ -103,7 +103,7 @@ impl<'a> Step<'a> {
 pub(super) struct Scratch<T, const W: usize> {
     /// Split points of the irregular corners.
     pub(super) irregular: Vec<Value<T, W>>,
-    /// The stage before the last, where there are several.
+    /// The stage before the last, where there are several; of tiles with a pass the first level.
     pub(super) stage: Vec<Value<T, W>>,
     /// What the corners of patches become.
     pub(super) corners: Vec<Value<T, W>>,

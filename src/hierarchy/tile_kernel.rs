@@ -8,14 +8,16 @@
 
 use super::kernel::{QuadWeights, Value, narrow, quad_children, vertex_grid, widen};
 use super::tile_centres::TileCentres;
+use super::tile_step::TileLoop;
 use crate::base::{Result, Scalar, memory};
 use crate::mesh::{Mesh, QuadWalker};
-use crate::refine::{CELL, Place, TILE_ROW, TileKind, Tiles, array_index};
+use crate::refine::{CELL, Place, TILE_ORIGIN, TILE_ROW, TileKind, Tiles, array_index};
 
-/// Places in an array.
-const PLACES: usize = TILE_ROW * TILE_ROW;
+/// Places in an array, rounded up to a power of two: an index that is cut to that many bits
+/// needs no check.
+const PLACES: usize = (TILE_ROW * TILE_ROW).next_power_of_two();
 
-type TileArray<L> = Box<[L; PLACES]>;
+pub(super) type TileArray<L> = Box<[L; PLACES]>;
 
 /// Refines tiles, one after the other.
 pub(super) struct TileKernel<'v, T: Scalar, const W: usize> {
@@ -39,31 +41,6 @@ impl<'v, T: Scalar, const W: usize> TileKernel<'v, T, W> {
         let (from, to) = (tile_array::<T>()?, tile_array::<T>()?);
         let quads = QuadWalker::new(tiles.parent());
         Ok(Self { tiles, quads, values, centres, weights, from, to })
-    }
-
-    /// Writes the vertices of a tile and returns the rest.
-    #[inline(always)]
-    pub(super) fn tile<'o>(
-        &mut self,
-        tile: usize,
-        out: &'o mut [[Value<T, W>; 4]],
-    ) -> &'o mut [[Value<T, W>; 4]] {
-        let (kind, corner) = (self.tiles.kind(tile), self.tiles.corner(tile));
-        let first = if self.gather(corner, kind) {
-            0
-        } else {
-            self.around(corner, kind, 0..4);
-            1
-        };
-        for level in first..self.tiles.depth() - 1 {
-            self.split(kind, level);
-        }
-        let parents = &self.tiles.tables().tile(kind).parents;
-        let (mine, later) = out.split_at_mut(parents.len());
-        for (out, &corners) in mine.iter_mut().zip(parents) {
-            *out = self.children(corners);
-        }
-        later
     }
 
     /// The vertices of a quad and, where more than the last split comes after, of the ring of
@@ -98,29 +75,6 @@ impl<'v, T: Scalar, const W: usize> TileKernel<'v, T, W> {
             }
         }
         true
-    }
-
-    /// Writes the vertices of the quads around a sector, from the front of each run.
-    pub(super) fn sector(&mut self, sector: u32, runs: &mut [&mut [[Value<T, W>; 4]]]) {
-        let table = &self.tiles.tables().sector;
-        let mesh = self.tiles.parent();
-        let centre = seen_as_quad(mesh, sector);
-        self.around(sector, TileKind::Face, [0, 1, 3].into_iter());
-        for level in 1..self.tiles.depth() {
-            for (&place, corner) in table.centres[level as usize].iter().zip(centre) {
-                self.from[array_index(place)] = self.centres.at(level, corner);
-            }
-            if level + 1 < self.tiles.depth() {
-                self.split(TileKind::Face, level);
-            }
-        }
-        for (run, parents) in runs.iter_mut().zip(&table.parents) {
-            let (mine, later) = std::mem::take(run).split_at_mut(parents.len());
-            for (out, places) in mine.iter_mut().zip(parents) {
-                *out = self.children(places.map(|place| array_index(place) as u16));
-            }
-            *run = later;
-        }
     }
 
     /// The children of a face of the level before the last.
@@ -210,23 +164,73 @@ impl<'v, T: Scalar, const W: usize> TileKernel<'v, T, W> {
     ) {
         let (across, along) = if RING { (0, 0) } else { (RIGHT, UP) };
         for y in along..Y + 2 - along {
-            let (low, high) = (row(&self.from, y + 1), row(&self.from, y + 2));
-            let at = 2 * y + 1 - UP;
+            let at = y + TILE_ORIGIN;
+            let (low, high) = (row(&self.from, at), row(&self.from, at + 1));
+            let at = 2 * y + TILE_ORIGIN - UP;
             let out = &mut self.to[at * TILE_ROW..(at + 2) * TILE_ROW];
             let (below, above) = out.split_at_mut(TILE_ROW);
             for x in across..X + 2 - across {
-                let corners = [low[x + 1], low[x + 2], high[x + 2], high[x + 1]];
+                let at = x + TILE_ORIGIN;
+                let corners = [low[at], low[at + 1], high[at + 1], high[at]];
                 let [a, b, c, d] = quad_children::<T>(self.weights, corners);
-                let at = 2 * x + 1 - RIGHT;
+                let at = 2 * x + TILE_ORIGIN - RIGHT;
                 (below[at], below[at + 1], above[at + 1], above[at]) = (a, b, c, d);
             }
         }
     }
 }
 
+impl<T: Scalar, const W: usize> TileLoop<T, W> for TileKernel<'_, T, W> {
+    #[inline(always)]
+    fn tile<'o>(
+        &mut self,
+        tile: usize,
+        out: &'o mut [[Value<T, W>; 4]],
+    ) -> &'o mut [[Value<T, W>; 4]] {
+        let (kind, corner) = (self.tiles.kind(tile), self.tiles.corner(tile));
+        let first = if self.gather(corner, kind) {
+            0
+        } else {
+            self.around(corner, kind, 0..4);
+            1
+        };
+        for level in first..self.tiles.depth() - 1 {
+            self.split(kind, level);
+        }
+        let parents = &self.tiles.tables().tile(kind).parents;
+        let (mine, later) = out.split_at_mut(parents.len());
+        for (out, &corners) in mine.iter_mut().zip(parents) {
+            *out = self.children(corners);
+        }
+        later
+    }
+
+    fn sector(&mut self, sector: u32, runs: &mut [&mut [[Value<T, W>; 4]]]) {
+        let table = &self.tiles.tables().sector;
+        let mesh = self.tiles.parent();
+        let centre = seen_as_quad(mesh, sector);
+        self.around(sector, TileKind::Face, [0, 1, 3].into_iter());
+        for level in 1..self.tiles.depth() {
+            for (&place, corner) in table.centres[level as usize].iter().zip(centre) {
+                self.from[array_index(place)] = self.centres.at(level, corner);
+            }
+            if level + 1 < self.tiles.depth() {
+                self.split(TileKind::Face, level);
+            }
+        }
+        for (run, parents) in runs.iter_mut().zip(&table.parents) {
+            let (mine, later) = std::mem::take(run).split_at_mut(parents.len());
+            for (out, places) in mine.iter_mut().zip(parents) {
+                *out = self.children(places.map(|place| array_index(place) as u16));
+            }
+            *run = later;
+        }
+    }
+}
+
 /// A corner of a face, the two after it and the one before: all of a quad's, and of other
 /// faces those that the quads around the corner's edge ask for.
-fn seen_as_quad(mesh: &Mesh, corner: u32) -> [u32; 4] {
+pub(super) fn seen_as_quad(mesh: &Mesh, corner: u32) -> [u32; 4] {
     let next = mesh.next(corner);
     [corner, next, mesh.next(next), mesh.prev(corner)]
 }
@@ -236,7 +240,7 @@ fn row<L>(array: &[L; PLACES], y: usize) -> &[L] {
     &array[y * TILE_ROW..(y + 1) * TILE_ROW]
 }
 
-fn tile_array<T: Scalar>() -> Result<TileArray<T::Lanes>> {
+pub(super) fn tile_array<T: Scalar>() -> Result<TileArray<T::Lanes>> {
     let list = memory::filled(T::lanes([T::default(); 4]), PLACES)?.into_boxed_slice();
     Ok(list.try_into().unwrap_or_else(|_| unreachable!("the list is that long")))
 }

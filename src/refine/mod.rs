@@ -34,5 +34,7 @@ pub(crate) use patch_grid::{DEEPEST, PatchArray, Place, patch_array, within};
 pub(crate) use patches::Patches;
 pub(crate) use primal_split::{Pieces, PrimalChild, PrimalSplit};
 pub(crate) use split::{Carried, Split};
-pub(crate) use tile_tables::{CELL, DEEPEST_TILE, TILE_ROW, TileKind, array_index};
+pub(crate) use tile_tables::{
+    CELL, DEEPEST_TILE, Stand, TILE_ORIGIN, TILE_ROW, TileKind, array_index,
+};
 pub(crate) use tiles::Tiles;

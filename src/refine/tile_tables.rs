@@ -30,9 +30,12 @@ use crate::mesh::near::{LEADS_ALL, LEADS_NONE, LEADS_OUTER};
 pub(crate) const DEEPEST_TILE: u32 = 4;
 
 /// Places in a row of the array behind a tile: the longest side of the level before the
-/// last, 11, the vertices of a ring of faces around it, and one more on either side. The faces
+/// last, 11, the vertices of a ring of faces around it, and two more on either side. The faces
 /// of the tile have the vertices from 1 on, those of the ring the vertices from 0 on.
-pub(crate) const TILE_ROW: usize = 16;
+pub(crate) const TILE_ROW: usize = 18;
+
+/// Where place 0 is in a row.
+pub(crate) const TILE_ORIGIN: usize = 2;
 
 /// The vertices of a cell, counter-clockwise from its lowest.
 pub(crate) const CELL: [Place; 4] = [[0, 0], [1, 0], [1, 1], [0, 1]];
@@ -42,6 +45,12 @@ const OUTWARDS: [Place; 4] = [[0, -1], [1, 0], [0, 1], [-1, 0]];
 
 fn add(a: Place, b: Place) -> Place {
     [a[0] + b[0], a[1] + b[1]]
+}
+
+/// The lowest vertex of a face.
+fn low(face: [Place; 4]) -> Place {
+    let low = |i: usize| face.iter().map(|place| place[i]).min().unwrap_or(0);
+    [low(0), low(1)]
 }
 
 /// What a quad of a split mesh stands for.
@@ -95,6 +104,14 @@ impl TileKind {
             Self::Vertex => [1 - long, 1 - long],
         }
     }
+
+    /// How many rings of faces around a tile, along x and y, a level must have where a vertex asks
+    /// for the vertices around its own, so that the faces one level before `depth` have one.
+    pub(crate) fn rings(self, level: u32, depth: u32) -> [i32; 2] {
+        let splits = (level..depth - 1).map(|level| self.shift(level));
+        // A split without shift needs a further ring for one, and none for two.
+        std::array::from_fn(|i| if splits.clone().any(|shift| shift[i] == 0) { 2 } else { 1 })
+    }
 }
 
 /// Faces on the long side of a tile: 1, 3, 5, 11, 21.
@@ -112,6 +129,23 @@ pub(crate) struct Foreign {
     pub(crate) at: u16,
 }
 
+/// How a face stands in the array: the index of its lowest vertex, and where its first vertex
+/// is, counter-clockwise from the lowest.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) struct Stand {
+    pub(crate) index: u16,
+    pub(crate) turn: u16,
+}
+
+impl Stand {
+    pub(crate) fn of(at: [Place; 4]) -> Self {
+        let low = low(at);
+        let first = [at[0][0] - low[0], at[0][1] - low[1]];
+        let turn = CELL.iter().position(|&place| place == first).unwrap_or(0);
+        Self { index: array_index(low) as u16, turn: turn as u16 }
+    }
+}
+
 /// The vertices of a tile along a side. There are 22 at most; an index that is cut to five bits
 /// needs no check.
 pub(crate) type TileSide = [u32; 32];
@@ -121,6 +155,8 @@ pub(crate) type TileSide = [u32; 32];
 pub(crate) struct TileTable {
     /// The array indices of the vertices of each face, one level before the last.
     pub(crate) parents: Vec<[u16; 4]>,
+    /// How the same faces stand.
+    pub(crate) stands: Vec<Stand>,
     /// The vertices of each last face, counted from the tile's first; 0 where foreign.
     pub(crate) faces: Vec<[u32; 4]>,
     /// The vertices across each side, and at each corner.
@@ -188,7 +224,8 @@ impl TileTables {
 /// The index of a place in the array behind a tile.
 #[inline(always)]
 pub(crate) fn array_index([x, y]: Place) -> usize {
-    (y + 1) as usize * TILE_ROW + (x + 1) as usize
+    const ORIGIN: i32 = TILE_ORIGIN as i32;
+    (y + ORIGIN) as usize * TILE_ROW + (x + ORIGIN) as usize
 }
 
 /// A quarter turn clockwise about the middle of a tile of the first kind: what the sector of
@@ -217,15 +254,9 @@ impl Cell {
         Self { at: CELL.map(|[x, y]| [x + 1, y + 1]), kind }
     }
 
-    /// Its lowest vertex.
-    fn low(&self) -> Place {
-        let low = |i: usize| self.at.iter().map(|place| place[i]).min().unwrap_or(0);
-        [low(0), low(1)]
-    }
-
     /// The vertex that a split makes at a corner of the face that lies `by` from this one.
     fn child(&self, corner: usize, by: Place, shift: Place) -> Place {
-        let (low, at) = (self.low(), self.at[corner % 4]);
+        let (low, at) = (low(self.at), self.at[corner % 4]);
         std::array::from_fn(|i| low[i] + by[i] + at[i] - shift[i])
     }
 
@@ -307,6 +338,7 @@ fn tile(kind: TileKind, depth: u32) -> Result<TileTable> {
     }
     let index = |place: Place| array_index(place) as u16;
     let parents = memory::collect(cells.iter().map(|cell| cell.at.map(index)))?;
+    let stands = memory::collect(cells.iter().map(|cell| Stand::of(cell.at)))?;
     let shift = kind.shift(depth - 1);
     let mut numbers = PlaceNumbers::new()?;
     for (first, cell) in (0..).step_by(4).zip(&cells) {
@@ -320,6 +352,7 @@ fn tile(kind: TileKind, depth: u32) -> Result<TileTable> {
     let bounds = Bounds::new(kind, depth);
     let mut table = TileTable {
         parents,
+        stands,
         faces,
         across: Default::default(),
         beyond: Default::default(),
@@ -487,7 +520,7 @@ mod tests {
                 assert_eq!(table.parents.len() as u32, kind.faces(depth - 1));
                 assert!(x.max(y) + 3 <= ROW as usize);
                 let [x, y] = kind.cells(depth - 1);
-                assert!(x.max(y) + 5 <= TILE_ROW);
+                assert!(x.max(y) + 3 + TILE_ORIGIN <= TILE_ROW);
             }
             let rows = |kind| [0, 1].map(|side| Bounds::new(kind, depth).side(side).count());
             let [face, edge, vertex] = TILE_KINDS.map(rows);

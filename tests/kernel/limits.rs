@@ -254,12 +254,24 @@ fn check_both_sizes(error: &Error, ceiling: u64) {
 /// asks for.
 #[test]
 fn patches_fit_their_ceiling() {
-    let schemes = || [Scheme::catmull_clark(), dual(&[])];
+    let schemes = || [Scheme::catmull_clark(), dual(&[]), dual(&[(1, 2)])];
     for (levels, scheme) in (5..=7).flat_map(|levels| schemes().map(|scheme| (levels, scheme))) {
         let setup = Setup { scheme, ..cube(dual(&[])) };
         for width in [0, 8] {
             fits_its_ceiling(&setup, levels, width);
         }
+    }
+}
+
+/// The same where most faces are no quads or lie beside one.
+#[test]
+fn tiles_of_many_triangles_fit_their_ceiling() {
+    let control = bases::several(&bases::octahedron(), 40);
+    for scheme in [dual(&[]), dual(&[(1, 2)])] {
+        let setup = Setup::new(&control, scheme);
+        let plan = Prediction::new(&setup.mesh, &setup.scheme, 3).expect("small");
+        assert_eq!(plan.patch_depth(), 2);
+        fits_its_ceiling(&setup, 3, 0);
     }
 }
 

@@ -3,8 +3,8 @@
 
 use carvel::base::Scalar;
 use carvel::{
-    Attribute, Context, CornerRule, Hierarchy, LoopWeights, Prediction, Refined, Refiner, Scheme,
-    SplitKind, Task,
+    Attribute, Context, CornerRule, Fraction, Hierarchy, LoopWeights, Prediction, Refined, Refiner,
+    Scheme, SplitKind, Task,
 };
 use proptest::prelude::*;
 
@@ -179,22 +179,19 @@ fn linear_values_are_left_alone() {
     }
 }
 
-fn depth(control: &Poly<f64>, levels: u32) -> u32 {
+fn depth(control: &Poly<f64>, scheme: &Scheme, levels: u32) -> u32 {
     let mesh = kernel::mesh(control);
-    Prediction::new(&mesh, &Scheme::doo_sabin(), levels).expect("a small mesh").patch_depth()
+    Prediction::new(&mesh, scheme, levels).expect("a small mesh").patch_depth()
 }
 
-/// Copies of a polyhedron side by side.
-fn several(one: &Poly<f64>, copies: usize) -> Poly<f64> {
-    let mut all = Poly::new(Vec::new(), Vec::new());
-    for copy in 0..copies {
-        let first = all.positions.len();
-        let moved = one.positions.iter().map(|p| [p[0] + 3.0 * copy as f64, p[1], p[2]]);
-        all.positions.extend(moved);
-        let shifted = |face: &Vec<usize>| face.iter().map(|v| first + v).collect();
-        all.faces.extend(one.faces.iter().map(shifted));
-    }
-    all
+/// 1 − 16w is the pass.
+fn three_point(w: (i64, i64)) -> Scheme {
+    Scheme::three_point(Fraction::new(w.0, w.1).expect("a fraction")).expect("a weight in range")
+}
+
+/// One without a pass, the paper's, one with centroids for a pass, and one in between.
+fn dual_schemes() -> [Scheme; 4] {
+    [Scheme::doo_sabin(), three_point((1, 32)), Scheme::quartic(), three_point((1, 100))]
 }
 
 /// The middles of a cube's edges: triangles and quads around vertices of valence 4.
@@ -241,10 +238,12 @@ fn cuboctahedron() -> Poly<f64> {
 
 #[test]
 fn tiles_of_all_depths() {
-    for levels in 3..=5 {
-        assert_eq!(depth(&bases::torus(8, 8), levels), levels - 1);
-        check::<f32>(&bases::torus(8, 8), &Scheme::doo_sabin(), levels);
-        check::<f64>(&bases::torus(3, 22), &Scheme::doo_sabin(), levels);
+    for scheme in [Scheme::doo_sabin(), three_point((1, 32))] {
+        for levels in 3..=5 {
+            assert_eq!(depth(&bases::torus(8, 8), &scheme, levels), levels - 1);
+            check::<f32>(&bases::torus(8, 8), &scheme, levels);
+            check::<f64>(&bases::torus(3, 22), &scheme, levels);
+        }
     }
 }
 
@@ -258,43 +257,65 @@ fn tiles_around_faces_that_are_no_quads() {
         bases::pillow(8),
         lone_vertex(),
     ] {
-        let scheme = Scheme::doo_sabin();
-        let fewest = levels(&control, &scheme, 0);
-        for levels in fewest..=fewest + 2 {
-            assert_eq!(depth(&control, levels), 2 + levels - fewest);
-            check::<f32>(&control, &scheme, levels);
+        for scheme in [Scheme::doo_sabin(), three_point((1, 32))] {
+            let fewest = levels(&control, &scheme, 0);
+            for levels in fewest..=fewest + 2 {
+                assert_eq!(depth(&control, &scheme, levels), 2 + levels - fewest);
+                check::<f32>(&control, &scheme, levels);
+            }
         }
     }
-    let average = Scheme::doo_sabin().with_rule(CornerRule::Average);
-    for control in [bases::tetrahedron(), bases::dodecahedron()] {
-        check::<f64>(&control, &average, levels(&control, &average, 0));
+    for scheme in dual_schemes() {
+        let average = scheme.with_rule(CornerRule::Average);
+        for control in [bases::tetrahedron(), bases::dodecahedron()] {
+            check::<f64>(&control, &average, levels(&control, &average, 0));
+        }
     }
 }
 
 /// The parent is the first split of a mesh from outside, of triangles alone or not.
 #[test]
 fn tiles_of_the_first_split() {
-    for control in [several(&bases::octahedron(), 10), several(&cuboctahedron(), 6)] {
-        for levels in 3..=5 {
-            assert_eq!(depth(&control, levels), levels - 1);
-            check::<f32>(&control, &Scheme::doo_sabin(), levels);
+    for control in [bases::several(&bases::octahedron(), 10), bases::several(&cuboctahedron(), 6)] {
+        for scheme in [Scheme::doo_sabin(), three_point((1, 32))] {
+            for levels in 3..=5 {
+                assert_eq!(depth(&control, &scheme, levels), levels - 1);
+                check::<f32>(&control, &scheme, levels);
+            }
         }
     }
 }
 
-/// No tiles where the mesh has a boundary, or the one before the parent other valences than 4.
+/// Weighed before they are added, values near the limit stay in range on the way.
+#[test]
+fn tiles_of_large_values() {
+    let mesh = kernel::mesh(&bases::cube());
+    let positions = vec![f32::MAX / 1.01; 24];
+    for scheme in dual_schemes() {
+        let task = Task::new(&mesh, &scheme, 6, &positions);
+        let refined = Refiner::new().refine(&Context::serial(), &task).expect("no overflow");
+        assert!(refined.positions.iter().all(|x| x.is_finite()));
+    }
+}
+
+/// No tiles where the mesh has a boundary, or the one before the parent other valences than 4,
+/// and none with more passes than one.
 #[test]
 fn tiles_are_for_splits_of_closed_meshes() {
     let (open, uneven) = (bases::grid(16, 16), poked(&bases::torus(8, 8)));
-    assert_eq!([2, 3, 4, 5].map(|levels| depth(&open, levels)), [0; 4]);
-    assert_eq!([2, 3, 4, 5].map(|levels| depth(&uneven, levels)), [0, 0, 2, 3]);
+    for scheme in dual_schemes() {
+        assert_eq!([2, 3, 4, 5].map(|levels| depth(&open, &scheme, levels)), [0; 4]);
+        assert_eq!([2, 3, 4, 5].map(|levels| depth(&uneven, &scheme, levels)), [0, 0, 2, 3]);
+    }
+    let twice = Scheme::dual(&[Fraction::ZERO; 2]).expect("passes in range");
+    assert_eq!([2, 3, 4, 5].map(|levels| depth(&uneven, &twice, levels)), [0; 4]);
 }
 
 /// What a refiner keeps from a call does not show in the next, whatever either did.
 #[test]
 fn a_refiner_goes_from_tiles_to_levels_and_back() {
     let (serial, mut refiner) = (Context::serial(), Refiner::new());
-    let controls = [bases::torus(16, 16), bases::cube(), several(&bases::octahedron(), 12)];
+    let controls = [bases::torus(16, 16), bases::cube(), bases::several(&bases::octahedron(), 12)];
     let schemes = [Scheme::doo_sabin(), Scheme::catmull_clark(), Scheme::quartic()];
     for levels in [5, 2, 4, 1, 3] {
         for (control, scheme) in
@@ -316,8 +337,9 @@ proptest! {
         let scheme = Scheme::catmull_clark();
         check::<f32>(&control, &scheme, levels(&control, &scheme, 0));
         check::<f64>(&control, &scheme, levels(&control, &scheme, 0));
-        let scheme = Scheme::doo_sabin();
-        check::<f32>(&control, &scheme, levels(&control, &scheme, 0));
+        for scheme in dual_schemes() {
+            check::<f32>(&control, &scheme, levels(&control, &scheme, 0));
+        }
         let (control, scheme) = (poked(&control), Scheme::loop_triangles());
         check::<f32>(&control, &scheme, levels(&control, &scheme, 0));
     }

@@ -9,7 +9,7 @@ use carvel::{
 pub type Path = fn(calls: u32) -> u64;
 
 /// All paths by name; the unit is a face or a row of the result.
-pub const PATHS: [(&str, Path); 14] = [
+pub const PATHS: [(&str, Path); 15] = [
     ("catmull-clark, 3 levels at once, face", |n| refined(&Scheme::catmull_clark(), 3, n)),
     ("catmull-clark, 1 level, face", |n| refined(&Scheme::catmull_clark(), 1, n)),
     ("loop, 3 levels at once, face", |n| triangles(3, n)),
@@ -17,7 +17,8 @@ pub const PATHS: [(&str, Path); 14] = [
     ("doo-sabin, 1 level and 2 at once, face", |n| refined(&Scheme::doo_sabin(), 3, n)),
     ("doo-sabin, 1 level and 3 at once, face", |n| refined(&Scheme::doo_sabin(), 4, n)),
     ("doo-sabin, 1 level, face", |n| refined(&Scheme::doo_sabin(), 1, n)),
-    ("three-point, 3 levels, face", |n| refined(&three_point(), 3, n)),
+    ("three-point, 1 level and 2 at once, face", |n| refined(&three_point(), 3, n)),
+    ("three-point, 1 level and 3 at once, face", |n| refined(&three_point(), 4, n)),
     ("three-point, 1 level, face", |n| refined(&three_point(), 1, n)),
     ("mesh from a soup of quads, face", built),
     ("catmull-clark, stencils of level 2, row", stencils),

@@ -160,3 +160,16 @@ pub fn valence_two() -> Poly<f64> {
     ];
     poly(positions, &[&[2, 1, 0, 4, 3], &[0, 1, 2, 6, 5]])
 }
+
+/// Copies of a polyhedron side by side.
+pub fn several(one: &Poly<f64>, copies: usize) -> Poly<f64> {
+    let mut all = Poly::new(Vec::new(), Vec::new());
+    for copy in 0..copies {
+        let first = all.positions.len();
+        let moved = one.positions.iter().map(|p| [p[0] + 3.0 * copy as f64, p[1], p[2]]);
+        all.positions.extend(moved);
+        let shifted = |face: &Vec<usize>| face.iter().map(|v| first + v).collect();
+        all.faces.extend(one.faces.iter().map(shifted));
+    }
+    all
+}
