@@ -10,6 +10,7 @@ use super::kernel::{Value, narrow, widen};
 use super::patch_fan_values::FanValues;
 use super::primal_kernel::{face_mean, mix_edge, mix_vertex, regular_sum, weights};
 use crate::base::{Result, Scalar};
+use crate::mesh::{prev_in_triangle, turn_in_quad};
 use crate::refine::{PatchArray, Patches, Pieces, patch_array, within};
 use crate::scheme::SmoothMasks;
 
@@ -59,10 +60,13 @@ impl<'v, T: Scalar, const W: usize> PatchKernel<'v, T, W> {
     ) {
         let depth = self.patches.depth();
         self.gather(patch);
+        let odd = self.extraordinary(patch);
         for level in 0..depth {
             self.refine(1 << level, level + 1 < depth);
             std::mem::swap(&mut self.from, &mut self.to);
-            self.mend(patch, level);
+            if odd != 0 {
+                self.mend(patch, odd, level);
+            }
         }
         let (frame, order) = (self.patches.tables().frame(depth), self.patches.order(patch));
         for (slot, &index) in corners.iter_mut().zip(&frame.own) {
@@ -73,46 +77,66 @@ impl<'v, T: Scalar, const W: usize> PatchKernel<'v, T, W> {
                 runs.iter_mut().zip([order.on_edges(level), order.in_faces(level)])
             {
                 let (mine, later) = std::mem::take(run).split_at_mut(indices.len());
-                for (slot, &index) in mine.iter_mut().zip(indices) {
-                    *slot = narrow::<T, W>(self.from[within(index)]);
-                }
+                write::<T, W>(&self.from, indices, mine);
                 *run = later;
             }
         }
     }
 
+    /// The patch of level 0 and what is around it.
     #[inline(always)]
-    fn at(&self, corner: u32) -> T::Lanes {
-        let vertex = self.patches.parent().vert[corner as usize];
-        widen::<T, W>(&self.values[vertex as usize])
+    fn gather(&mut self, patch: usize) {
+        match self.patches.pieces() {
+            Pieces::Quads => self.gather_quads(patch),
+            Pieces::Triangles => self.gather_triangles(patch),
+        }
     }
 
-    /// The patch of level 0 and what is around it.
-    fn gather(&mut self, patch: usize) {
-        let (mesh, pieces) = (self.patches.parent(), self.patches.pieces());
-        let frame = self.patches.tables().frame(0);
-        let sides = pieces.sides() as usize;
-        for i in 0..sides {
-            let corner = (patch * sides + i) as u32;
-            self.from[within(frame.own[i])] = self.at(corner);
-            if self.linear {
-                continue;
-            }
-            let second = mesh.ccw(mesh.ccw(corner));
-            self.from[within(frame.before[i])] = self.at(mesh.next(mesh.cw(corner)));
-            self.from[within(frame.second[i])] = self.at(mesh.next(second));
-            if self.patches.fans.contains(mesh.vert[corner as usize]) {
-                continue;
-            }
-            let [near, far] = frame.beyond[i].map(within);
-            match pieces {
-                Pieces::Quads => self.from[near] = self.at(mesh.next(mesh.next(second))),
-                Pieces::Triangles => {
-                    let third = mesh.ccw(second);
-                    self.from[near] = self.at(mesh.next(third));
-                    self.from[far] = self.at(mesh.next(mesh.ccw(third)));
-                }
-            }
+    /// The face across an edge has two of the neighbours outside the patch, one at each end
+    /// of the edge; what lies beyond a corner is across one edge more.
+    fn gather_quads(&mut self, patch: usize) {
+        let (mesh, frame) = (self.patches.parent(), self.patches.tables().frame(0));
+        let faces = mesh.vert.as_chunks::<4>().0;
+        let value = |v: u32| widen::<T, W>(&self.values[v as usize]);
+        for (&index, &v) in frame.own.iter().zip(&faces[patch]) {
+            self.from[within(index)] = value(v);
+        }
+        if self.linear {
+            return;
+        }
+        for (i, &twin) in mesh.twin.as_chunks::<4>().0[patch].iter().enumerate() {
+            let at = |corner: u32, by| {
+                let face = faces[corner as usize / 4];
+                face[(corner as usize + by) % 4]
+            };
+            let next = (i + 1) % 4;
+            self.from[within(frame.before[i])] = value(at(twin, 2));
+            self.from[within(frame.second[next])] = value(at(twin, 3));
+            // Meaningless beyond an extraordinary corner, which is mended.
+            let beyond = mesh.twin[turn_in_quad(0, twin, 3) as usize];
+            self.from[within(frame.beyond[next][0])] = value(at(beyond, 2));
+        }
+    }
+
+    /// The triangle across an edge has one of the neighbours outside the patch; two more at each
+    /// corner are in the next two triangles around it.
+    fn gather_triangles(&mut self, patch: usize) {
+        let (mesh, frame) = (self.patches.parent(), self.patches.tables().frame(0));
+        let value = |corner: u32| widen::<T, W>(&self.values[mesh.vert[corner as usize] as usize]);
+        for (&index, corner) in frame.own.iter().zip(3 * patch as u32..).take(3) {
+            self.from[within(index)] = value(corner);
+        }
+        if self.linear {
+            return;
+        }
+        for (i, &twin) in mesh.twin.as_chunks::<3>().0[patch].iter().enumerate() {
+            let [near, far] = frame.beyond[(i + 1) % 3].map(within);
+            let apex = prev_in_triangle(twin);
+            self.from[within(frame.before[i])] = value(apex);
+            // Meaningless beyond an extraordinary corner, which is mended.
+            let third = prev_in_triangle(mesh.twin[apex as usize]);
+            self.from[near] = value(third);
+            self.from[far] = value(prev_in_triangle(mesh.twin[third as usize]));
         }
     }
 
@@ -140,25 +164,55 @@ impl<'v, T: Scalar, const W: usize> PatchKernel<'v, T, W> {
         }
     }
 
-    /// The extraordinary corners and their neighbours that the patch does not contain.
-    fn mend(&mut self, patch: usize, level: u32) {
+    /// The corners of a patch that are extraordinary, one bit each.
+    #[inline(always)]
+    fn extraordinary(&self, patch: usize) -> u8 {
+        let (fans, sides) = (&self.patches.fans, self.patches.pieces().sides() as usize);
+        if self.linear || fans.vertices().is_empty() {
+            return 0;
+        }
+        let corners = &self.patches.parent().vert[patch * sides..][..sides];
+        let bit = |(i, &v): (usize, &u32)| u8::from(fans.contains(v)) << i;
+        corners.iter().enumerate().map(bit).sum()
+    }
+
+    /// Writes the extraordinary corners and their neighbours that the patch does not contain.
+    #[inline(never)]
+    fn mend(&mut self, patch: usize, odd: u8, level: u32) {
         let (patches, fans) = (self.patches, &self.patches.fans);
         let frame = patches.tables().frame(level + 1);
         let sides = patches.pieces().sides() as usize;
-        if self.linear || fans.vertices().is_empty() {
-            return;
-        }
-        for i in 0..sides {
-            let corner = (patch * sides + i) as u32;
-            if !fans.contains(patches.parent().vert[corner as usize]) {
-                continue;
-            }
-            let slot = fans.slot(corner);
+        for i in (0..sides).filter(|i| odd >> i & 1 == 1) {
+            let slot = fans.slot((patch * sides + i) as u32);
             let level = level as usize;
             self.from[within(frame.own[i])] = self.fans.own(level, fans.owner(slot));
             self.from[within(frame.second[i])] = self.fans.near(level, fans.turn(slot, 2));
             self.from[within(frame.before[i])] = self.fans.near(level, fans.back(slot));
         }
+    }
+}
+
+/// Writes the values at some places of an array, one after the other. Four lanes are one
+/// store, so a record is followed by a lane too much where another one overwrites it.
+#[inline(always)]
+fn write<T: Scalar, const W: usize>(
+    array: &PatchArray<T::Lanes>,
+    indices: &[u16],
+    out: &mut [Value<T, W>],
+) {
+    const BLOCK: usize = 8;
+    let (blocks, rest) = out.as_chunks_mut::<BLOCK>();
+    let (places, last) = indices.as_chunks::<BLOCK>();
+    for (block, places) in blocks.iter_mut().zip(places) {
+        let block = block.as_flattened_mut();
+        for (i, &index) in places.iter().enumerate() {
+            let lanes = T::unlaned(array[within(index)]);
+            let length = if W * i + 4 <= W * BLOCK { 4 } else { W };
+            block[W * i..][..length].copy_from_slice(&lanes[..length]);
+        }
+    }
+    for (slot, &index) in rest.iter_mut().zip(last) {
+        *slot = narrow::<T, W>(array[within(index)]);
     }
 }
 
