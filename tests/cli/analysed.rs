@@ -25,7 +25,8 @@ fn json_has_eigenvalues_and_limits() {
     assert!((own - 0.5).abs() < 1e-12, "{own}");
     assert_eq!((&found["c1"], &found["curvature"]), (&true.into(), &"unbounded".into()));
     let eigenvalues = found["eigenvalues"].as_array().expect("a list");
-    let first: Vec<f64> = eigenvalues.iter().take(3).filter_map(serde_json::Value::as_f64).collect();
+    let first: Vec<f64> =
+        eigenvalues.iter().take(3).filter_map(serde_json::Value::as_f64).collect();
     assert!((first[0] - 1.0).abs() < 1e-12, "{first:?}");
     assert!((first[1] - lambda).abs() < 1e-12 && (first[2] - lambda).abs() < 1e-12, "{first:?}");
 }

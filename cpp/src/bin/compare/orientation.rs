@@ -33,7 +33,9 @@ const MISSING: [&str; 2] = [
 /// All rows of a regime, after what the crates lack.
 pub fn run(regime: Regime, runs: u32, emit: Emit) -> Result<(), String> {
     if regime == Regime::Default {
-        MISSING.into_iter().for_each(|line| emit(Err(line.into())));
+        for line in MISSING {
+            emit(Err(line.into()));
+        }
     }
     let (cow, torus, triangles) = (cases::cow()?, cases::torus(), cases::triangles());
     for (scheme, name, control, level) in [
@@ -168,8 +170,10 @@ impl Port {
 impl Side for Port {
     fn prepare(&mut self) -> Result<(), String> {
         let mesh = TopologyDescriptor::new(self.positions.len(), &self.sizes, &self.indices);
-        let mut options = sdc::Options::default();
-        options.vtx_boundary_interpolation = sdc::VtxBoundaryInterpolation::EdgeAndCorner;
+        let options = sdc::Options {
+            vtx_boundary_interpolation: sdc::VtxBoundaryInterpolation::EdgeAndCorner,
+            ..sdc::Options::default()
+        };
         let refiner = TopologyRefinerFactory::create(mesh, self.scheme, options);
         self.refiner = Some(refiner.map_err(|e| e.to_string())?);
         Ok(())
