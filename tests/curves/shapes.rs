@@ -97,7 +97,9 @@ fn the_ternary_tension_scheme_becomes_its_limit() {
 fn uneven_parameters_keep_cubics() {
     let intervals = [1.0, 0.25, 3.0, 0.5, 2.0, 1.5, 0.75];
     let mut t = vec![0.0];
-    intervals.iter().for_each(|d| t.push(t[t.len() - 1] + d));
+    for d in intervals {
+        t.push(t[t.len() - 1] + d);
+    }
     let cubic = |t: f64| 0.2 * t * t * t - t * t + 3.0 * t - 1.0;
     let control = t.iter().flat_map(|&t| [t, cubic(t)]).collect();
     let control = Polygon::new(control, 2, Ends::Dropped);

@@ -211,7 +211,7 @@ fn range_text(name: &str, list: &[ParameterRange]) -> String {
     let range = |range: &ParameterRange| match range {
         ParameterRange::Single(w) => format!("{name} = {w} alone"),
         ParameterRange::Interval { low, high } => format!(
-            "{name} from {:.6}{} to {:.6}{}",
+            "{name} from {:.5}{} to {:.5}{}",
             low.middle(),
             open(low),
             high.middle(),
