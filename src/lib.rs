@@ -6,6 +6,8 @@ pub mod analysis;
 pub mod base;
 #[cfg(feature = "capi")]
 pub mod capi;
+#[cfg(feature = "curve")]
+pub mod curve;
 pub mod hierarchy;
 #[cfg(feature = "io")]
 pub mod io;

@@ -2,6 +2,8 @@
 //!
 //! | module | its one idea |
 //! |---|---|
+//! | `mask` | curves and grids, exactly, from the mask alone |
 //! | `surface` | surfaces around extraordinary points, by their eigenvalues |
 
+pub mod mask;
 pub mod surface;

@@ -324,6 +324,8 @@ fn the_scanner_sees_what_is_imported() {
     for module in ["base", "mesh", "refine", "scheme"] {
         assert!(levels.iter().any(|name| name == module), "{module}");
     }
+    let report = uses("src/analysis/mask/report.rs");
+    assert!(report.iter().any(|name| name == "curve"), "{report:?}");
 }
 
 /// Plants text at the end of a file and expects one breach, there and only there.
@@ -358,6 +360,9 @@ fn planted_imports_are_found_by_file_and_line() {
     assert_found("src/base/mod.rs", "use super::mesh::Mesh;", 1, "base must not use mesh");
     assert_found("src/refine/mod.rs", "use crate::Scheme;", 1, "refine must not use scheme");
     assert_found("src/io/mod.rs", "use crate::refine::Counts;", 1, "io must not use refine");
+    let table = "src/curve/catalogue/table.rs";
+    assert_found(table, "use crate::Scheme;", 1, "curve must not use scheme");
+    assert_found(table, "use super::super::super::analysis;", 1, "curve must not use analysis");
 }
 
 /// The C interface, and the advice about memory pages, lift the ban on unsafe code.

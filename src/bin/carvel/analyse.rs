@@ -1,6 +1,7 @@
 //! The command `analyse`.
 
 use crate::args::{AnalyseArgs, Chosen};
+use crate::curve;
 use crate::exit::{Doing, Exit, Failure};
 use crate::report;
 use crate::session::Session;
@@ -14,6 +15,9 @@ use std::fmt::Write as _;
 
 /// Analyses a scheme at some features.
 pub fn run(args: &AnalyseArgs) -> Result<Exit, Failure> {
+    if args.mask.is_given() {
+        return curve::analyse(&args.mask, args.json, args.quiet);
+    }
     let chosen = args.choose()?;
     let session = Session::new(1, None, args.quiet || args.json)?;
     let valences = &args.valence.0;

@@ -10,6 +10,7 @@
 //! | `input`, `places` | what is read, and where results go |
 //! | `faults` | mistakes in a mesh, as lines of its file |
 //! | `subdivide`, `info`, `picture`, `stencils`, `analyse` | the commands |
+//! | `curve` | masks of curves: a part of `analyse`, and `catalogue` |
 //! | `topology`, `matrix` | control meshes as asked for; stencil tables as files |
 //! | `refine`, `precise` | one refinement with all its data |
 //! | `carry`, `seams` | vertex data, and names of faces |
@@ -25,6 +26,7 @@ mod args;
 mod atomic;
 mod carry;
 mod console;
+mod curve;
 mod exit;
 mod faults;
 mod holes;
@@ -81,6 +83,7 @@ fn main() -> ExitCode {
         Some(Command::Preview(args)) => picture::run(args),
         Some(Command::Stencils(args)) => stencils::run(args),
         Some(Command::Analyse(args)) => analyse::run(args),
+        Some(Command::Catalogue(args)) => curve::catalogue(args),
     };
     exit.unwrap_or_else(|failure| Console::plain().failure(&failure)).into()
 }

@@ -1,7 +1,7 @@
 //! What can be asked of `carvel analyse`.
 
-use super::SchemeArgs;
 use super::names::Name;
+use super::{MaskArgs, SchemeArgs};
 use crate::exit;
 use carvel::analysis::surface::Feature;
 use clap::{Args, ValueEnum};
@@ -23,6 +23,9 @@ pub struct AnalyseArgs {
     /// The scheme and its parameters.
     #[command(flatten)]
     scheme: SchemeArgs,
+    /// A mask of curves and grids rather than a scheme.
+    #[command(flatten)]
+    pub mask: MaskArgs,
     /// Print JSON, with all eigenvalues and the weights of limits and tangents.
     #[arg(long, help_heading = "Run")]
     pub json: bool,

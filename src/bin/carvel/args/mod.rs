@@ -2,6 +2,7 @@
 
 mod analyse;
 mod crease;
+mod mask;
 mod names;
 mod owners;
 mod scheme;
@@ -10,6 +11,7 @@ mod view;
 
 pub use analyse::AnalyseArgs;
 pub use crease::CreaseArgs;
+pub use mask::MaskArgs;
 pub use scheme::{Chosen, SchemeArgs};
 pub use stencils::{MatrixFormat, StencilArgs};
 pub use view::ViewArgs;
@@ -43,6 +45,8 @@ pub enum Command {
     Stencils(Box<StencilArgs>),
     /// Say how smooth a scheme's surfaces are around extraordinary points.
     Analyse(Box<AnalyseArgs>),
+    /// List the schemes of curves that `analyse --curve` knows.
+    Catalogue(CatalogueArgs),
 }
 
 /// Options of `carvel subdivide`.
@@ -182,6 +186,15 @@ pub struct PreviewArgs {
     /// How pictures are drawn.
     #[command(flatten)]
     pub view: ViewArgs,
+}
+
+/// Options of `carvel catalogue`.
+#[derive(Debug, Args)]
+#[command(after_help = exit::HELP)]
+pub struct CatalogueArgs {
+    /// Print JSON.
+    #[arg(long)]
+    pub json: bool,
 }
 
 /// What to do with a mesh that is not manifold.

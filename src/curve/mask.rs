@@ -1,0 +1,256 @@
+//! The mask of a stationary scheme of any arity.
+//!
+//! A scheme of arity m with mask a refines a polygon p to q,
+//!
+//! qᵢ = Σⱼ a₍ᵢ₋ₘⱼ₎ pⱼ,
+//!
+//! so that there is one rule for each residue of i mod m (Dyn, *Subdivision schemes in
+//! computer-aided geometric design*, 1992; for m = 2 this is equation 2 of the founding paper).
+//! The rules reproduce constants: Σⱼ a₍ₑ₊ₘⱼ₎ = 1 for every residue e, without which no
+//! scheme converges.
+
+use std::str::FromStr;
+
+use num_traits::{One, Zero};
+
+use super::laurent::Laurent;
+use super::rational::{self, Rational, ratio};
+use crate::base::{Error, ErrorKind, Result};
+
+/// The most coefficients of a mask.
+pub const MOST_COEFFICIENTS: usize = 1024;
+/// The largest arity.
+pub const LARGEST_ARITY: usize = 64;
+/// The largest absolute offset.
+const LARGEST_OFFSET: i64 = 1 << 20;
+
+/// Where new points lie with respect to old ones, by the shift τ.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum Parametrisation {
+    /// τ is an integer: a new point belongs to every old one.
+    Primal,
+    /// τ is an odd multiple of ½: new points lie on both sides of an old one.
+    Dual,
+    /// Any other τ.
+    Other,
+}
+
+impl Parametrisation {
+    /// `primal`, `dual` or `other`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Primal => "primal",
+            Self::Dual => "dual",
+            Self::Other => "other",
+        }
+    }
+}
+
+/// One term of a rule: new point m·t + e takes `weight` of old point t + `shift`.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Tap {
+    /// The weight.
+    pub weight: Rational,
+    /// The old point, counted from t.
+    pub shift: i64,
+}
+
+/// A mask that satisfies the sum rule of order 1; see the module's text.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Mask {
+    arity: usize,
+    symbol: Laurent,
+}
+
+impl Mask {
+    /// The mask with aₖ = `coefficients[k − offset]`. Zeros at both ends are taken off.
+    ///
+    /// # Errors
+    /// [`ErrorKind::ParameterOutOfRange`] for an arity outside of 2..=64, no coefficients,
+    /// an offset beyond ±2²⁰, or coefficients that do not sum to 1 for each residue;
+    /// [`ErrorKind::TooLarge`] for more than 1024 coefficients or one of more than 4096 bits.
+    pub fn new(arity: usize, offset: i64, coefficients: Vec<Rational>) -> Result<Self> {
+        if !(2..=LARGEST_ARITY).contains(&arity) {
+            return Err(out_of_range(format!("arity {arity} is not within 2..={LARGEST_ARITY}")));
+        }
+        check_length(coefficients.len())?;
+        if offset.abs() > LARGEST_OFFSET {
+            return Err(out_of_range(format!("offset {offset} is not within ±{LARGEST_OFFSET}")));
+        }
+        coefficients.iter().try_for_each(rational::check_size)?;
+        Self::from_symbol(arity, Laurent::new(offset, coefficients))
+    }
+
+    /// The mask with its middle at 0, or for an even number of coefficients at −½.
+    ///
+    /// # Errors
+    /// As [`Mask::new`].
+    pub fn centred(arity: usize, coefficients: Vec<Rational>) -> Result<Self> {
+        let offset = -(coefficients.len() as i64 / 2);
+        Self::new(arity, offset, coefficients)
+    }
+
+    /// Reads coefficients separated by commas, such as `1/4,3/4,3/4,1/4`; without an
+    /// offset the mask is centred.
+    ///
+    /// # Errors
+    /// [`ErrorKind::InvalidText`] for a coefficient that is no number; as [`Mask::new`].
+    pub fn parse(text: &str, arity: usize, offset: Option<i64>) -> Result<Self> {
+        check_length(text.split(',').count())?;
+        let coefficients = text.split(',').map(rational::parse).collect::<Result<Vec<_>>>()?;
+        match offset {
+            Some(offset) => Self::new(arity, offset, coefficients),
+            None => Self::centred(arity, coefficients),
+        }
+    }
+
+    pub(crate) fn from_symbol(arity: usize, symbol: Laurent) -> Result<Self> {
+        for residue in 0..arity as i64 {
+            let of_residue = |k: &i64| k.rem_euclid(arity as i64) == residue;
+            let exponents = (symbol.lowest()..=symbol.highest()).filter(of_residue);
+            let sum: Rational = exponents.map(|k| symbol.at(k)).sum();
+            if !sum.is_one() {
+                let message = format!(
+                    "sum rule: the coefficients at {residue} mod {arity} sum to {}, not to 1",
+                    shown(&sum)
+                );
+                return Err(out_of_range(message));
+            }
+        }
+        Ok(Self { arity, symbol })
+    }
+
+    /// The number of new points per old one, m.
+    pub fn arity(&self) -> usize {
+        self.arity
+    }
+
+    /// The index of the first coefficient.
+    pub fn offset(&self) -> i64 {
+        self.symbol.lowest()
+    }
+
+    /// All coefficients.
+    pub fn coefficients(&self) -> &[Rational] {
+        self.symbol.coefficients()
+    }
+
+    /// a(z) = Σ aₖ zᵏ.
+    pub fn symbol(&self) -> &Laurent {
+        &self.symbol
+    }
+
+    /// True if the mask reads the same from both ends.
+    pub fn is_symmetric(&self) -> bool {
+        self.symbol.is_symmetric()
+    }
+
+    /// The shift of the parametrisation, τ = a′(1)/m (Dyn, Hormann, Sabin and Shen, 2008):
+    /// new point i of level k+1 belongs to the parameter (i − τ)/m in intervals of level k,
+    /// if old point j belongs to j.
+    pub fn tau(&self) -> Rational {
+        self.symbol.derivative_at_one(1) / ratio(self.arity as i64, 1)
+    }
+
+    /// Primal, dual or other, by τ.
+    pub fn parametrisation(&self) -> Parametrisation {
+        let tau = self.tau();
+        if tau.is_integer() {
+            Parametrisation::Primal
+        } else if (tau * ratio(2, 1)).is_integer() {
+            Parametrisation::Dual
+        } else {
+            Parametrisation::Other
+        }
+    }
+
+    /// True if every old point is kept: some residue's rule is a single 1.
+    pub fn is_interpolating(&self) -> bool {
+        (0..self.arity).any(|residue| {
+            let taps = self.taps(residue);
+            taps.len() == 1
+        })
+    }
+
+    /// The terms of new points m·t + `residue`, by ascending shift; no weight is 0.
+    pub fn taps(&self, residue: usize) -> Vec<Tap> {
+        let (m, e) = (self.arity as i64, residue as i64);
+        let exponents = (self.symbol.lowest()..=self.symbol.highest()).rev();
+        let of_rule = exponents.filter(|k| (e - k).rem_euclid(m) == 0);
+        let taps = of_rule.map(|k| Tap { weight: self.symbol.at(k), shift: (e - k).div_euclid(m) });
+        taps.filter(|tap| !tap.weight.is_zero()).collect()
+    }
+
+    /// Twice the middle of the mask: an even number where new points lie over old ones.
+    pub(crate) fn twice_centre(&self) -> i64 {
+        self.symbol.lowest() + self.symbol.highest()
+    }
+}
+
+impl FromStr for Mask {
+    type Err = Error;
+
+    /// Reads a binary mask, centred; see [`Mask::parse`].
+    fn from_str(text: &str) -> Result<Self> {
+        Self::parse(text, 2, None)
+    }
+}
+
+pub(crate) fn check_length(length: usize) -> Result<()> {
+    if length == 0 {
+        return Err(out_of_range("a mask without coefficients".to_owned()));
+    }
+    if length > MOST_COEFFICIENTS {
+        let message = format!("{length} coefficients: the limit is {MOST_COEFFICIENTS}");
+        return Err(Error::new(ErrorKind::TooLarge, message));
+    }
+    Ok(())
+}
+
+/// A number for a message, short whatever its size.
+fn shown(value: &Rational) -> String {
+    let text = value.to_string();
+    if text.len() <= 40 { text } else { format!("about {}", rational::to_f64(value)) }
+}
+
+pub(crate) fn out_of_range(message: String) -> Error {
+    Error::new(ErrorKind::ParameterOutOfRange, message)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_rules_of_chaikin() {
+        let mask: Mask = "1/4,3/4,3/4,1/4".parse().unwrap();
+        let rule = |e| mask.taps(e).into_iter().map(|t| (t.weight, t.shift)).collect::<Vec<_>>();
+        assert_eq!(mask.offset(), -2);
+        assert_eq!(rule(0), [(ratio(3, 4), 0), (ratio(1, 4), 1)]);
+        assert_eq!(rule(1), [(ratio(1, 4), 0), (ratio(3, 4), 1)]);
+        assert_eq!(mask.tau(), ratio(-1, 2));
+        assert_eq!(mask.parametrisation(), Parametrisation::Dual);
+    }
+
+    #[test]
+    fn what_is_no_mask_is_refused() {
+        let kind = |text: &str, arity| Mask::parse(text, arity, None).unwrap_err().kind();
+        assert_eq!(kind("", 2), ErrorKind::InvalidText);
+        assert_eq!(kind("1/2,,1/2", 2), ErrorKind::InvalidText);
+        assert_eq!(kind("1,1e400", 2), ErrorKind::InvalidText);
+        assert_eq!(kind("1/2,1,1/3", 2), ErrorKind::ParameterOutOfRange);
+        assert_eq!(kind("0", 2), ErrorKind::ParameterOutOfRange);
+        for arity in [0, 1, 65] {
+            assert_eq!(kind("1,1", arity), ErrorKind::ParameterOutOfRange);
+        }
+        assert_eq!(kind(&"1,".repeat(5000), 2), ErrorKind::TooLarge);
+        let empty = Mask::new(2, 0, Vec::new()).unwrap_err();
+        assert_eq!(empty.kind(), ErrorKind::ParameterOutOfRange);
+        let far = Mask::new(2, i64::MIN + 1, vec![ratio(1, 1), ratio(1, 1)]).unwrap_err();
+        assert_eq!(far.kind(), ErrorKind::ParameterOutOfRange);
+        let huge = Rational::from(num_bigint::BigInt::from(1) << 5000);
+        let huge = Mask::new(2, 0, vec![huge.clone(), huge]).unwrap_err();
+        assert_eq!(huge.kind(), ErrorKind::TooLarge);
+    }
+}
