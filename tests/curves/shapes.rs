@@ -164,7 +164,7 @@ fn each_edge_has_its_own_tension_or_interval() {
         let control = Polygon::new(vec![0.0, 3.0, -1.0, 4.0, 1.0, -5.0], 1, ends);
         let edges = [0.3, 2.0, -0.5, 1.0, 0.7, 5.0];
         let edges = &edges[..6 - usize::from(ends == Ends::Kept)];
-        let next = |v: f64| ((1.0 + v) / 2.0).sqrt();
+        let next = |v: f64| f64::midpoint(1.0, v).sqrt();
         let tension = |v: [f64; 3], p: [f64; 4]| {
             let w = 1.0 / (8.0 * next(v[1]) * (1.0 + next(v[1])));
             (0.5 + w) * (p[1] + p[2]) - w * (p[0] + p[3])
