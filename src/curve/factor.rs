@@ -17,9 +17,9 @@ use crate::base::{Error, ErrorKind, Fraction, Result};
 /// How the faces of a mesh are split.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum CurveSplit {
-    /// [1,3,3,1]/4: Doo and Sabin's corner split.
+    /// Doo and Sabin's corner split, `[1,3,3,1]/4`.
     Dual,
-    /// [1,2,1]/2: the linear quad split.
+    /// The linear quad split, `[1,2,1]/2`.
     Primal,
 }
 

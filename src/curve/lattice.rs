@@ -12,7 +12,8 @@ pub(crate) struct Lattice<'a, T> {
     pub width: usize,
     /// The number of points without anchors.
     pub n: i64,
-    /// Points −1, −2, … .
+    is_closed: bool,
+    /// Points −1, −2, … of an open polygon.
     before: Vec<T>,
     /// Points n, n+1, … .
     behind: Vec<T>,
@@ -35,32 +36,19 @@ impl<'a, T: Coordinate> Lattice<'a, T> {
         let high = rules.reaches().map(|(_, high)| high).max().unwrap_or(0);
         let left = (-(extent.first.div_euclid(m) + low)).max(0) as usize;
         let right = (last.div_euclid(m) + high - (n - 1)).max(0) as usize;
-        let (before, behind) = (Vec::new(), Vec::new());
-        let mut it = Self { points, width, n, before, behind };
         let mirrored = matches!(ends, Ends::Kept | Ends::Anchored);
-        let (left, right) =
-            if mirrored { (left.max(right), left.max(right)) } else { (left, right) };
-        it.before = memory::reserved(left.saturating_mul(width))?;
-        it.behind = memory::reserved(right.saturating_mul(width))?;
+        let images = if mirrored { left.max(right) } else { 0 };
+        let room = images.saturating_mul(width);
+        let (before, behind) = (memory::reserved(room)?, memory::reserved(room)?);
+        let mut it = Self { points, width, n, is_closed: ends == Ends::Closed, before, behind };
         let first = &polygon[..width];
         let end = &polygon[polygon.len() - width..];
         match ends {
-            Ends::Closed => it.wrap(left, right),
-            Ends::Dropped => {}
-            Ends::Kept => it.mirror(left, first, end, 1),
-            Ends::Anchored => it.mirror(left, first, end, 0),
+            Ends::Closed | Ends::Dropped => {}
+            Ends::Kept => it.mirror(images, first, end, 1),
+            Ends::Anchored => it.mirror(images, first, end, 0),
         }
         Ok(it)
-    }
-
-    fn wrap(&mut self, left: usize, right: usize) {
-        let points = self.points;
-        let copy = |list: &mut Vec<T>, j: i64| {
-            let at = j.rem_euclid(self.n) as usize * self.width;
-            list.extend_from_slice(&points[at..at + self.width]);
-        };
-        (1..=left as i64).for_each(|k| copy(&mut self.before, -k));
-        (0..right as i64).for_each(|k| copy(&mut self.behind, self.n + k));
     }
 
     /// Adds `count` images on either side in turn, since an image may be that of an image.
@@ -96,6 +84,7 @@ impl<'a, T: Coordinate> Lattice<'a, T> {
 
     /// Point `j`.
     pub fn point(&self, j: i64) -> &[T] {
+        let j = if self.is_closed { j.rem_euclid(self.n) } else { j };
         let (list, index) = if j < 0 {
             (&self.before[..], -1 - j)
         } else if j < self.n {

@@ -50,8 +50,8 @@ fn read(text: &str) -> Option<Rational> {
         return None;
     }
     if let Some((num, den)) = text.split_once('/') {
-        let den = integer(den)?;
-        return (!den.is_zero()).then_some(Rational::new(integer(num)?, den));
+        let (num, den) = (integer(num)?, integer(den)?);
+        return (!den.is_zero()).then(|| Rational::new(num, den));
     }
     let Some((whole, digits)) = text.split_once('.') else {
         return integer(text).map(Rational::from);

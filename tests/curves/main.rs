@@ -9,6 +9,7 @@ mod factors;
 mod grids;
 mod limits;
 mod paper;
+mod radii;
 mod ranges;
 mod refinement;
 #[expect(dead_code, reason = "shared with the kernel's tests, which use all of it")]

@@ -115,7 +115,82 @@ fn uneven_parameters_keep_cubics() {
     assert_eq!(long.parameters(1.0).expect("lengths"), [5.0]);
 }
 
-/// Σ (j + τ/(m−1))^d p… : data of a polynomial at the scheme's parameters go to data of the same
+/// Point `j` of a polygon and interval `j` beside it, continued by wrapping or mirroring.
+fn continued(polygon: &Polygon<f64>, of_edges: &[f64], j: i64) -> (f64, f64) {
+    let (n, edges) = (polygon.len() as i64, of_edges.len() as i64);
+    let at = |j: i64| polygon.points[j as usize];
+    if polygon.ends == Ends::Closed {
+        return (at(j.rem_euclid(n)), of_edges[j.rem_euclid(edges) as usize]);
+    }
+    let point = match j {
+        _ if j < 0 => 2.0 * at(0) - at(-j),
+        _ if j >= n => 2.0 * at(n - 1) - at(2 * n - 2 - j),
+        _ => at(j),
+    };
+    let edge = if j < 0 { -1 - j } else { j.min(2 * edges - 1 - j) };
+    (point, of_edges[edge as usize])
+}
+
+/// One step by the formula as it stands, with what the edges' halves inherit.
+fn naive(
+    polygon: &Polygon<f64>,
+    of_edges: &[f64],
+    rule: impl Fn([f64; 3], [f64; 4]) -> f64,
+    half: impl Fn(f64) -> f64,
+) -> (Polygon<f64>, Vec<f64>) {
+    let (mut points, mut halves) = (Vec::new(), Vec::new());
+    for (i, own) in of_edges.iter().enumerate() {
+        let at = |s: i64| continued(polygon, of_edges, i as i64 + s);
+        points.push(polygon.points[i]);
+        points.push(rule([-1, 0, 1].map(|s| at(s).1), [-1, 0, 1, 2].map(|s| at(s).0)));
+        halves.extend([half(*own); 2]);
+    }
+    if polygon.ends != Ends::Closed {
+        points.push(polygon.points[of_edges.len()]);
+    }
+    (Polygon::new(points, 1, polygon.ends), halves)
+}
+
+#[track_caller]
+fn nearly(a: &Polygon<f64>, b: &Polygon<f64>) {
+    assert_eq!((a.len(), a.ends), (b.len(), b.ends));
+    let apart = a.points.iter().zip(&b.points).map(|(a, b)| (a - b).abs());
+    assert!(apart.fold(0.0, f64::max) <= 1e-12, "{a:?}, {b:?}");
+}
+
+#[test]
+fn each_edge_has_its_own_tension_or_interval() {
+    for ends in [Ends::Closed, Ends::Kept] {
+        let control = Polygon::new(vec![0.0, 3.0, -1.0, 4.0, 1.0, -5.0], 1, ends);
+        let edges = [0.3, 2.0, -0.5, 1.0, 0.7, 5.0];
+        let edges = &edges[..6 - usize::from(ends == Ends::Kept)];
+        let next = |v: f64| f64::midpoint(1.0, v).sqrt();
+        let tension = |v: [f64; 3], p: [f64; 4]| {
+            let w = 1.0 / (8.0 * next(v[1]) * (1.0 + next(v[1])));
+            (0.5 + w) * (p[1] + p[2]) - w * (p[0] + p[3])
+        };
+        let (once, halves) = naive(&control, edges, tension, next);
+        let (twice, _) = naive(&once, &halves, tension, next);
+        nearly(&control.refine_with_local_tension(&context(), edges, 2).expect("points"), &twice);
+        let edges = edges.iter().map(|v| v + 1.0).collect::<Vec<_>>();
+        // Neville's scheme, not Lagrange's weights.
+        let cubic = |d: [f64; 3], p: [f64; 4]| {
+            let (t, x) = ([-d[0], 0.0, d[1], d[1] + d[2]], d[1] / 2.0);
+            let mut p = p;
+            for k in 1..4 {
+                for i in 0..4 - k {
+                    p[i] = ((x - t[i]) * p[i + 1] + (t[i + k] - x) * p[i]) / (t[i + k] - t[i]);
+                }
+            }
+            p[0]
+        };
+        let (once, halves) = naive(&control, &edges, cubic, |d| d / 2.0);
+        let (twice, _) = naive(&once, &halves, cubic, |d| d / 2.0);
+        nearly(&control.refine_non_uniform(&context(), &edges, 2).expect("points"), &twice);
+    }
+}
+
+/// Data of a polynomial at the scheme's parameters go to data of the same
 /// polynomial at the next level's parameters, to the stated degree and not beyond.
 #[test]
 fn polynomials_are_reproduced_to_their_degree_exactly() {
@@ -137,8 +212,7 @@ fn keeps_power(mask: &carvel::curve::Mask, degree: usize) -> bool {
     let refined = Polygon::new(data, 1, Ends::Closed).refine(&context(), mask, 1).expect("points");
     // Away from where the polygon is closed: point i belongs to (i − τ)/m.
     let reach = mask.coefficients().len() as i64 / m + 2;
-    let inner = m * reach..m * (n - reach);
-    inner.into_iter().filter(|i| (m * reach..m * (n - reach)).contains(i)).all(|i| {
+    (m * reach..m * (n - reach)).all(|i| {
         let place = (ratio(i, 1) - &tau) / ratio(m, 1);
         refined.points[i as usize] == pow(place, degree)
     })

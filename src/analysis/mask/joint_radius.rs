@@ -27,7 +27,7 @@ const LARGEST_WINDOW: usize = 48;
 /// How far above the growth that was found a polytope is tried, in turn.
 const MARGINS: [f64; 9] = [1e-9, 1e-6, 1e-4, 1e-3, 4e-3, 2e-2, 1e-1, 0.5, 2.0];
 /// The most multiplications for one polytope.
-const MOST_WORK: u64 = 200_000_000;
+const MOST_WORK: u64 = 100_000_000;
 
 /// What proves the upper bound.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
