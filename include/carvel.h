@@ -996,8 +996,8 @@ CARVEL_API carvel_status carvel_predict_bytes(const carvel_mesh *mesh,
                                               carvel_bytes *bytes, carvel_error *error);
 
 /* What a refinement is estimated to take: seconds of wall time for a carvel_refiner that
- * writes faces and values of one level. Within a factor of two, from 10000 faces on, on
- * the machine that the constants were measured on (src/hierarchy/cost.rs); a machine of
+ * writes faces and values of one level. Within a factor of two (of three for schemes with
+ * smoothing passes), from 10000 faces on, on the machine that the constants were measured on (src/hierarchy/cost.rs); a machine of
  * another speed scales all of them. All are finite and not negative. */
 typedef struct carvel_seconds {
     /* sizeof(carvel_seconds). */

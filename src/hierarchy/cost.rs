@@ -7,7 +7,8 @@
 //! ```text
 //! steps  = Σ over levels done one by one: faces · level + records · (faces · blend
 //!          + passes · faces · pass + rows · (row + passes · pass_row))
-//! last   = faces · level[depth] + records · (faces · blend[depth] + slots · depth · slot)
+//! last   = faces · level[depth] + records · (faces · (blend[depth] + passes · deep_pass)
+//!          + slots · depth · slot)
 //! memory = bytes of the result and of scratch · fresh
 //! ```
 //!
@@ -22,7 +23,8 @@ use super::predict::Prediction;
 ///
 /// The constants are those of one machine (benches/README.md), where they are within a
 /// factor of two of what is measured for 10⁴ faces and more; a machine of another speed
-/// scales all of them. What is ruled by a call's fixed costs, below 10³ faces, may take some
+/// scales all of them. Faces of hundreds of sides take longer than is estimated, and constants of
+/// smoothing passes are known to a factor of three. What is ruled by a call's fixed costs, below 10³ faces, may take some
 /// times as long. Reading, building and writing meshes is not included.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[non_exhaustive]
@@ -60,6 +62,9 @@ struct Rates {
     deep: [Rate; 4],
     /// A face and a record in a smoothing pass.
     pass: f64,
+    /// The same in the last levels where they are one step: from instructions, since the
+    /// machine was never quiet.
+    deep_pass: f64,
     /// What a pass adds to a row that is made by itself.
     pass_row: f64,
 }
@@ -70,18 +75,21 @@ const RATES: [Rates; 3] = [
         level: rate(3.2, 5.0),
         deep: [rate(5.0, 6.0), rate(2.0, 3.6), rate(1.5, 2.7), rate(1.5, 2.7)],
         pass: 173.0,
+        deep_pass: 0.0,
         pass_row: 0.0,
     },
     Rates {
         level: rate(3.5, 4.7),
         deep: [rate(5.0, 6.5), rate(1.8, 3.5), rate(1.2, 2.3), rate(1.2, 2.3)],
         pass: 173.0,
+        deep_pass: 0.0,
         pass_row: 0.0,
     },
     Rates {
         level: rate(3.0, 3.0),
         deep: [rate(2.2, 2.6), rate(1.2, 1.5), rate(0.9, 1.1), rate(0.9, 1.1)],
         pass: 6.2,
+        deep_pass: 4.0,
         pass_row: 800.0,
     },
 ];
@@ -108,11 +116,12 @@ impl Prediction {
     ///
     /// O(levels). The estimate is finite, whatever the sizes, and grows with each of them.
     pub fn seconds(&self, width: u64, size: u64, threads: usize) -> Seconds {
+        let (width, size) = (width.max(1), size.max(1));
         let depth = self.patch_depth();
         let levels = self.levels().len() - 1;
         let one_by_one = levels - depth as usize;
         // f64 has half as many lanes in a register.
-        let records = width.max(1).div_ceil(LANES) as f64 * (size.max(1) as f64 / 4.0).max(1.0);
+        let records = width.div_ceil(LANES) as f64 * (size as f64 / 4.0).max(1.0);
         let rates = &RATES[self.kind()];
         let passes = self.passes() as f64;
 
@@ -129,7 +138,7 @@ impl Prediction {
             let Rate { face, blend } = rates.deep[depth as usize - 2];
             let faces = self.last().faces as f64;
             let followed = self.slots() as f64 * f64::from(depth) * SLOT;
-            faces * face + records * (faces * (blend + passes * rates.pass) + followed)
+            faces * face + records * (faces * (blend + passes * rates.deep_pass) + followed)
         };
         let scratch = if levels == 0 { 0 } else { self.refiner_bytes(width, size, false) };
         let memory = (self.output_bytes(width, size) as f64 + scratch as f64) * FRESH;
@@ -147,10 +156,13 @@ impl Prediction {
     }
 
     /// About how many rows of a level are made one by one: one for each corner of an irregular
-    /// face of the level before and each edge of its boundary, two for a sharp edge.
+    /// face of the level before, which for a dual split triangles are, too, and each edge of its
+    /// boundary, two for a sharp edge.
     fn rows(&self, level: usize) -> f64 {
         let parent = self.counts(level as u32 - 1);
         let sharp = self.sharp_edges() as f64 * 2_f64.powi(level as i32 - 1);
-        parent.irregular_corners as f64 + parent.boundary_edges as f64 + 2.0 * sharp
+        let irregular =
+            if self.is_primal() { parent.irregular_corners } else { parent.stored_corners() };
+        irregular as f64 + parent.boundary_edges as f64 + 2.0 * sharp
     }
 }

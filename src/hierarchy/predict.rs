@@ -250,16 +250,21 @@ impl Prediction {
         let (tables, each_face, each_slot) = if self.primal {
             let corners = value_bytes(parent.corners, width, size);
             let tables = each_table(128) + lanes(2 * 2048) + (16 << 10);
-            (tables, 5 * faces + corners, 16 + lanes(depth + 4))
+            (tables, corners.saturating_add(5 * faces), 16 + lanes(depth + 4))
         } else {
             let first = &self.levels[self.levels.len() - depth as usize];
             let (first, each_slot) = if self.passes == 0 {
                 (0, lanes(depth + 1))
             } else {
                 let split_points = value_bytes(parent.stored_corners(), width, size);
-                (value_bytes(first.vertices, width, size) + split_points, lanes(4 * depth + 9))
+                let first = value_bytes(first.vertices, width, size);
+                (first.saturating_add(split_points), lanes(4 * depth + 9))
             };
-            (each_table(256) + lanes(2 * 512) + (16 << 10), 4 * faces + first, each_slot)
+            (
+                each_table(256) + lanes(2 * 512) + (16 << 10),
+                first.saturating_add(4 * faces),
+                each_slot,
+            )
         };
         let slots = u128::from(self.slots).saturating_mul(each_slot);
         let copies = self.copy_bytes(width, size);

@@ -62,7 +62,7 @@ impl<'a> Patterns<'a> {
         let mesh = self.hierarchy.mesh(level + 1);
         let mut ring = Ring::default();
         for child in self.children(level, face) {
-            ring.walk(mesh, child);
+            walk(&mut ring, mesh, child)?;
             let key = (depth - 1, memory::copied(&ring.signature)?);
             if !self.known.contains_key(&key) {
                 self.prepare_at(level + 1, child, depth - 1)?;
@@ -109,7 +109,7 @@ impl<'a> Patterns<'a> {
         let (mut inner, mut children, mut dense) = (Ring::default(), Vec::new(), Vec::new());
         let stride = padded(ring.vertices.len());
         for child in self.children(level, face) {
-            inner.walk(mesh, child);
+            walk(&mut inner, mesh, child)?;
             let key = (depth - 1, memory::copied(&inner.signature)?);
             let rows = self.known.get(&key).ok_or_else(lost)?;
             memory::extend(&mut children, [(rows, dense.len() / stride)])?;
@@ -125,6 +125,12 @@ impl<'a> Patterns<'a> {
             made: PlacedWriter::new(block.slots, ring.vertices.len())?,
         }))
     }
+}
+
+/// The ring of a child. Beside a vertex of valence 3 the middle of a split triangle meets another
+/// vertex twice, and no other ring of its kind does.
+fn walk(ring: &mut Ring, mesh: &Mesh, child: u32) -> Result<()> {
+    if ring.walk_once(mesh, child) { Ok(()) } else { Err(lost()) }
 }
 
 /// The length that a row of up to 255 places is filled up to: sums of such lengths are

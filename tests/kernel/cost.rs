@@ -57,10 +57,13 @@ fn more_of_anything_takes_longer() {
 
 #[test]
 fn a_lone_triangle_and_absurd_numbers_have_a_time() {
-    let mesh = Mesh::from_polygons(3, &[3], &[0, 1, 2]).expect("a triangle");
-    for scheme in &schemes(true) {
-        for level in [0, 1, 31, 32, 64] {
-            let Ok(plan) = Prediction::new(&mesh, scheme, level) else { continue };
+    let triangle = Mesh::from_polygons(3, &[3], &[0, 1, 2]).expect("a triangle");
+    // Closed and large enough for patches and tiles.
+    let torus = kernel::mesh(&bases::torus(16, 16));
+    let dual = schemes(true).into_iter().map(|scheme| (&triangle, scheme));
+    for (mesh, scheme) in dual.chain(schemes(false).into_iter().map(|scheme| (&torus, scheme))) {
+        for level in [0, 1, 4, 31, 32, 64] {
+            let Ok(plan) = Prediction::new(mesh, &scheme, level) else { continue };
             for n in [0, 1, u64::MAX] {
                 let seconds = plan.seconds(n, n, n as usize);
                 for part in [seconds.steps, seconds.last, seconds.memory, seconds.total()] {
@@ -91,6 +94,25 @@ fn parts_add_up_and_follow_the_levels() {
     let plan = Prediction::new(&mesh, &Scheme::catmull_clark(), 4).expect("it fits");
     let deep = plan.seconds(3, 4, 1);
     assert!(plan.patch_depth() == 4 && deep.steps == 0.0 && deep.last > 0.0);
+}
+
+/// Corners of triangles are cut off one by one.
+#[test]
+fn triangles_cost_a_dual_scheme_more() {
+    let time = |poly| {
+        let mesh = kernel::mesh(&poly);
+        let plan = Prediction::new(&mesh, &Scheme::doo_sabin(), 1).expect("it fits");
+        plan.seconds(3, 4, 1).steps / plan.last().faces as f64
+    };
+    assert!(time(bases::octahedron()) > 3.0 * time(bases::torus(16, 16)));
+}
+
+/// A record of no lanes or bytes counts as one of one.
+#[test]
+fn nothing_counts_as_one() {
+    let mesh = kernel::mesh(&bases::torus(16, 16));
+    let plan = Prediction::new(&mesh, &Scheme::doo_sabin(), 4).expect("it fits");
+    assert_eq!(plan.seconds(0, 0, 0), plan.seconds(1, 1, 1));
 }
 
 #[test]

@@ -117,13 +117,32 @@ fn small() -> [Mesh; 3] {
     ]
 }
 
+/// An octahedron with one face, the first, cut into three: all corners of those are split into
+/// triangles whose middle meets a vertex twice.
+fn dented() -> Mesh {
+    let faces = [
+        [6, 0, 2],
+        [6, 2, 4],
+        [6, 4, 0],
+        [2, 1, 4],
+        [1, 3, 4],
+        [3, 0, 4],
+        [2, 0, 5],
+        [1, 2, 5],
+        [3, 1, 5],
+        [0, 3, 5],
+    ];
+    Mesh::from_polygons(7, &[3; 10], faces.as_flattened()).expect("a closed mesh")
+}
+
 const LEVELS: u32 = 4;
 
 #[test]
 fn rows_of_faces_alike_are_those_of_refinement() {
     let context = Context::serial();
     let quads = (0..3).map(|seed| mixed(7, 5, seed, true)).chain(small());
-    let triangles = (0..2).map(|seed| mixed(5, 6, seed, false));
+    let [_, tetrahedron, _] = small();
+    let triangles = (0..2).map(|seed| mixed(5, 6, seed, false)).chain([dented(), tetrahedron]);
     let of = |scheme: Scheme| move |mesh| (mesh, scheme.clone());
     let [plain, tuned, linear] = schemes();
     let cases = quads.map(of(plain)).chain(triangles.map(of(Scheme::loop_triangles())));

@@ -296,12 +296,12 @@ static void check_ceiling(void)
 {
     setup it;
     poly *large = poly_grid(100, 100);
-    carvel_context *context = limited(1000000), *tiny = limited(1000);
+    carvel_context *context = limited(100000), *tiny = limited(1000);
     carvel_mesh *mesh = (carvel_mesh *)large;
     carvel_mesh_desc desc;
     setup_take(&it, poly_cube(), 2);
     CHECK_OK(refine(&it, context));
-    check_refused(&it, context, "1000000");
+    check_refused(&it, context, "100000");
     CHECK_OK(refine(&it, context));
     poly_describe(large, &desc);
     CHECK_STATUS(CARVEL_STATUS_MEMORY_CEILING,
