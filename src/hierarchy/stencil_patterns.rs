@@ -11,6 +11,7 @@ use super::stencil_step::StepRows;
 use super::{Hierarchy, Interpolation, StencilTask};
 use crate::base::simd::{InnerLoop, with_widest};
 use crate::base::{Error, ErrorKind, Result, Scalar, memory};
+use crate::mesh::Mesh;
 use crate::refine::{Pieces, PrimalSplit};
 use crate::sparse::{PlacedRows, PlacedWriter};
 use std::collections::HashMap;

@@ -225,12 +225,44 @@ fn verdicts_are_those_of_the_literature() {
         let (_, spectrum) = interior(&scheme, n);
         let verdict = Smoothness::new(&scheme, &spectrum).unwrap();
         assert_eq!(verdict.tangent, Tangent::Continuous, "{scheme:?}, n = {n}");
-        assert_eq!(verdict.curvature, Some(curvature), "{scheme:?}, n = {n}: {}", verdict.ratio);
+        assert_eq!(verdict.curvature, Some(curvature), "{scheme:?}, n = {n}: {:?}", verdict.ratio);
     }
     // Linear refinement has no tangent plane, whatever the valence.
     let (_, spectrum) = interior(&Scheme::bilinear(), 5);
     let verdict = Smoothness::new(&Scheme::bilinear(), &spectrum).unwrap();
     assert_ne!(verdict.tangent, Tangent::Continuous);
+}
+
+/// Eigenvalues that are almost the same are no Jordan block.
+#[test]
+fn near_eigenvalues_are_two() {
+    let scheme = three_point(1, 10_000_000);
+    let (_, spectrum) = of(&scheme, Feature::Boundary { faces: 3 });
+    assert!(spectrum.all().take(3).all(|e| e.copies == e.vectors), "{:?}", spectrum.eigenvalues());
+    let verdict = Smoothness::new(&scheme, &spectrum).unwrap();
+    assert_eq!(verdict.tangent, Tangent::Continuous);
+}
+
+/// The second tangent lies a quarter of a turn after the first, counter-clockwise.
+#[test]
+fn tangents_turn_counter_clockwise() {
+    for scheme in [Scheme::catmull_clark(), Scheme::doo_sabin(), Scheme::loop_triangles()] {
+        for n in [5, 8] {
+            let (matrix, spectrum) = interior(&scheme, n);
+            let weights = LimitWeights::new(&matrix, &spectrum).unwrap();
+            let [along, across] = weights.tangents.expect("a tangent plane");
+            // A regular star in the plane: the sum over its vertices is the tangent itself.
+            let orbit = (0..matrix.orbits()).find(|&i| matrix.orbit_size(i) == n).unwrap();
+            let sum = |weights: &[f64]| {
+                let turn = |k: usize| TAU * k as f64 / n as f64;
+                let x: f64 = weights.iter().enumerate().map(|(k, w)| w * turn(k).cos()).sum();
+                let y: f64 = weights.iter().enumerate().map(|(k, w)| w * turn(k).sin()).sum();
+                [x, y]
+            };
+            let ([x, y], [u, v]) = (sum(along.orbit(orbit)), sum(across.orbit(orbit)));
+            assert!(x * v - y * u > 0.1, "{scheme:?}, n = {n}: {x} {y}, {u} {v}");
+        }
+    }
 }
 
 #[test]

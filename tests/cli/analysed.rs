@@ -37,7 +37,9 @@ fn what_is_no_feature_is_refused() {
     for (command, word) in [
         ("analyse doo-sabin --feature dart", "creases"),
         ("analyse catmull-clark --valence 2", "3 to 512"),
-        ("analyse loop --scheme quartic", "two schemes"),
+        ("analyse bspline --degree 5 --feature corner", "one face alone"),
+        ("analyse bspline --degree 65", "8 passes"),
+        ("analyse loop --boundary none --feature boundary", "holes"),
         ("analyse loop --w 1/32", "three-point"),
         ("analyse doo-sabin --boundary none --feature boundary", "no face there"),
     ] {
@@ -47,6 +49,7 @@ fn what_is_no_feature_is_refused() {
         ("analyse catmull-clark --valence 7..3", "smaller number comes first"),
         ("analyse catmull-clark --valence 3..99999999999", "512"),
         ("analyse catmul", "catmull-clark"),
+        ("analyse loop --scheme three-point", "cannot be used with"),
     ] {
         let run = bench.run(command);
         assert!(run.code == 2 && run.err.contains(word), "{command}: {}", run.err);

@@ -3,13 +3,15 @@
 use crate::base::{Context, Crease, Error, ErrorKind, Result, SharpVertex};
 use crate::mesh::{BuildOptions, Mesh, build};
 use crate::refine::Pieces;
-use crate::scheme::Scheme;
+use crate::scheme::{Boundary, Scheme, SplitKind};
 use std::fmt;
 
 /// The sharpness of what stays sharp for ever.
 const FOR_EVER: f32 = 10.0;
-/// The largest valence that is analysed.
-const LARGEST: usize = 512;
+/// The most faces that are analysed where turns make small blocks of the matrix, and elsewhere.
+const MOST: [usize; 2] = [512, 48];
+/// The most smoothing passes: each reaches a ring of faces farther.
+const MOST_PASSES: usize = 8;
 
 /// A vertex of a control mesh with everything regular around it. Under a dual scheme it
 /// becomes a face of as many sides; a face of n sides becomes the same under every scheme.
@@ -62,22 +64,38 @@ impl Feature {
         !matches!(self, Self::Boundary { .. } | Self::Corner { .. })
     }
 
-    fn check(self) -> Result<()> {
+    fn check(self, scheme: &Scheme) -> Result<()> {
         let least = if self.is_closed() { 3 } else { 1 };
+        let most = MOST[usize::from(!self.is_symmetric())];
         let sides = if let Self::Crease { faces } = self { faces.contains(&0) } else { false };
-        if (least..=LARGEST).contains(&self.faces()) && !sides {
-            return Ok(());
+        let error = |kind, message| Err(Error::new(kind, message));
+        if !(least..=most).contains(&self.faces()) || sides {
+            let message = format!("{self}: analysed are {least} to {most} faces around a vertex");
+            return error(ErrorKind::ParameterOutOfRange, message);
         }
-        let message = format!("{self}: analysed are {least} to {LARGEST} faces around a vertex");
-        Err(Error::new(ErrorKind::ParameterOutOfRange, message))
+        if scheme.passes().len() > MOST_PASSES {
+            let message = format!("analysed are schemes of up to {MOST_PASSES} passes");
+            return error(ErrorKind::ParameterOutOfRange, message);
+        }
+        if !self.is_closed() && scheme.creases() && scheme.boundary() == Boundary::None {
+            let message = format!("{self}: without a boundary rule faces there are holes");
+            return error(ErrorKind::Unsupported, message);
+        }
+        let dual = scheme.split() == SplitKind::Corner;
+        if matches!(self, Self::Corner { faces: 2.. }) && !dual && !scheme.creases() {
+            let message = format!("{self}: the scheme interpolates vertices of one face alone");
+            return error(ErrorKind::Unsupported, message);
+        }
+        Ok(())
     }
 
     /// A mesh around vertex 0 that is regular `rings` faces far.
     ///
     /// # Errors
-    /// [`ErrorKind::ParameterOutOfRange`] for more or fewer faces than are analysed.
+    /// [`ErrorKind::ParameterOutOfRange`] for more or fewer faces or passes than are analysed,
+    /// [`ErrorKind::Unsupported`] if the scheme has no such feature.
     pub(super) fn model(self, scheme: &Scheme, rings: u32) -> Result<Mesh> {
-        self.check()?;
+        self.check(scheme)?;
         let plan = Plan { sectors: self.faces() as u32, rings, closed: self.is_closed() };
         let (sizes, indices) = match scheme.pieces() {
             Pieces::Quads => plan.quads(),

@@ -1,6 +1,5 @@
 //! What eigenvalues and characteristic map say about the surface.
 
-use super::weights::tangent_mode;
 use super::{CharacteristicMap, Feature, Spectrum};
 use crate::base::Result;
 use crate::scheme::Scheme;
@@ -22,7 +21,8 @@ pub enum Tangent {
     Folded,
     /// The two largest eigenvalues beside 1 do not span a tangent plane.
     Undefined,
-    /// The surface has sides with a tangent plane each, or is sharp on purpose.
+    /// The surface is sharp on purpose: it has sides with a tangent plane each, or a sharp edge
+    /// runs into the vertex.
     Sharp,
 }
 
@@ -69,8 +69,8 @@ pub struct Smoothness {
     pub lambda: f64,
     /// The largest after those of the tangent plane.
     pub mu: f64,
-    /// μ/λ²: below 1 the curvature vanishes, above it grows.
-    pub ratio: f64,
+    /// μ/λ² of an interior feature: below 1 the curvature vanishes, above it grows.
+    pub ratio: Option<f64>,
     /// The tangent plane.
     pub tangent: Tangent,
     /// The curvature; only where the surface is C¹ and the feature symmetric.
@@ -90,16 +90,19 @@ impl Smoothness {
     /// The verdict of a spectrum and a map that are there already.
     pub fn of(spectrum: &Spectrum, map: Option<&CharacteristicMap>) -> Self {
         let (lambda, mu) = (spectrum.lambda(), spectrum.mu());
-        let ratio = if lambda > 0.0 { mu / (lambda * lambda) } else { 0.0 };
+        let interior = spectrum.sectors() > 1 && lambda > 0.0;
+        let ratio = interior.then(|| mu / (lambda * lambda));
         let tangent = match (spectrum.feature(), map) {
-            (Feature::Crease { .. } | Feature::Corner { .. }, _) => Tangent::Sharp,
+            (Feature::Crease { .. } | Feature::Corner { .. } | Feature::Dart { .. }, _) => {
+                Tangent::Sharp
+            }
             (_, Some(map)) if map.least_jacobian > FLAT && map.injective => Tangent::Continuous,
             (_, Some(_)) => Tangent::Folded,
             (_, None) => Tangent::Undefined,
         };
-        debug_assert_eq!(map.is_some(), tangent_mode(spectrum).is_some());
-        let smooth = tangent == Tangent::Continuous && spectrum.sectors() > 1;
-        Self { lambda, mu, ratio, tangent, curvature: smooth.then(|| curvature(spectrum, ratio)) }
+        let smooth = ratio.filter(|_| tangent == Tangent::Continuous);
+        let curvature = smooth.map(|ratio| curvature(spectrum, ratio));
+        Self { lambda, mu, ratio, tangent, curvature }
     }
 }
 

@@ -12,6 +12,8 @@ use std::f64::consts::TAU;
 /// Eigenvalues that are not farther apart are one of several times; a Jordan block of two
 /// parts by the root of a rounding error.
 const APART: f64 = 1e-6;
+/// Sizes that are not farther apart are equal.
+const EQUAL: f64 = 1e-9;
 /// Singular values below are zero.
 const ZERO: f64 = 1e-9;
 /// Smaller eigenvalues are left out.
@@ -62,12 +64,12 @@ impl Spectrum {
         for mode in 0..=matrix.sectors() / 2 {
             eigenvalues.extend(block_eigenvalues(matrix, mode)?);
         }
+        eigenvalues.sort_by(|a: &Eigenvalue, b| b.size().total_cmp(&a.size()));
         // Of equals the lower mode comes first.
-        eigenvalues.sort_by(|a: &Eigenvalue, b| {
-            let apart = (a.size() - b.size()).abs() > APART * 1e-3;
-            let size = if apart { b.size().total_cmp(&a.size()) } else { a.mode.cmp(&b.mode) };
-            size.then(a.mode.cmp(&b.mode)).then(b.value[0].total_cmp(&a.value[0]))
-        });
+        let same = |a: &Eigenvalue, b: &Eigenvalue| a.size() - b.size() <= EQUAL;
+        for equals in eigenvalues.chunk_by_mut(same) {
+            equals.sort_by(|a, b| a.mode.cmp(&b.mode).then(b.value[0].total_cmp(&a.value[0])));
+        }
         Ok(Self { feature: matrix.feature(), sectors: matrix.sectors(), eigenvalues })
     }
 
@@ -152,15 +154,18 @@ fn block_eigenvalues(matrix: &LocalMatrix<f64>, mode: usize) -> Result<Vec<Eigen
             cluster.push(rest.swap_remove(i));
             middle = cluster.iter().sum::<c64>() / cluster.len() as f64;
         }
-        if middle.norm() < NOTHING {
-            continue;
-        }
         let vectors = match cluster.len() {
             1 => 1,
-            several => null_vectors(&block, middle, Side::Right)?.len().clamp(1, several),
+            _ => null_vectors(&block, middle, Side::Right)?.len().min(cluster.len()),
         };
-        let value = [middle.re, if middle.im.abs() < ZERO { 0.0 } else { middle.im }];
-        found.push(Eigenvalue { value, mode, copies: cluster.len(), vectors });
+        let members = cluster.len();
+        // No eigenvector in the middle: they are near each other, but not the same.
+        let (parts, vectors) = if vectors == 0 { (cluster, 1) } else { (vec![middle], vectors) };
+        let copies = if parts.len() == 1 { members } else { 1 };
+        for part in parts.into_iter().filter(|part| part.norm() >= NOTHING) {
+            let value = [part.re, if part.im.abs() < ZERO { 0.0 } else { part.im }];
+            found.push(Eigenvalue { value, mode, copies, vectors });
+        }
     }
     Ok(found)
 }

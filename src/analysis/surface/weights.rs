@@ -56,8 +56,9 @@ impl VertexWeights {
 pub struct LimitWeights {
     /// The limit of the vertex or the middle of the face; weights sum to 1.
     pub position: VertexWeights,
-    /// Two tangents, counter-clockwise seen from outside; absent where the eigenvalues promise
-    /// no tangent plane. Their length is a convention: largest weight 1.
+    /// Two tangents; absent where the eigenvalues promise no tangent plane. Around an interior
+    /// feature the second lies a quarter of a turn on, counter-clockwise seen from outside;
+    /// elsewhere they are any two that span the plane. Largest weight 1.
     pub tangents: Option<[VertexWeights; 2]>,
 }
 
@@ -113,7 +114,9 @@ pub(super) fn tangent_mode(spectrum: &Spectrum) -> Option<Tangents> {
     let [second, third] = [spectrum.all().nth(1)?, spectrum.all().nth(2)?];
     let fourth = spectrum.mu();
     let real = |e: &super::Eigenvalue| e.value[1] == 0.0 && e.value[0] > 0.0;
-    if !real(&second) || !real(&third) || third.size() <= fourth + 1e-9 || second.size() >= 1.0 {
+    let first = spectrum.all().next()?;
+    let converges = (first.value[0] - 1.0).abs() < 1e-9 && second.size() < 1.0 - 1e-9;
+    if !converges || !real(&second) || !real(&third) || third.size() <= fourth + 1e-9 {
         return None;
     }
     if spectrum.sectors() > 1 {

@@ -128,15 +128,15 @@ fn table(chosen: &Chosen, found: &[Analysis]) -> String {
         let verdict = &analysis.smoothness;
         let map = analysis.map.as_ref();
         let least = map.map_or("-".to_owned(), |map| format!("{:.3}", map.least_jacobian));
+        let ratio = verdict.ratio.map_or("-".to_owned(), |ratio| format!("{ratio:.8}"));
         let curvature = verdict.curvature.map(|c| format!(", curvature {c}")).unwrap_or_default();
         // Writing to a string does not fail.
         let _ = writeln!(
             text,
-            "{:5}  {:.8}  {:.8}  {:12.8}  {least:>8}  {}{curvature}",
+            "{:5}  {:.8}  {:.8}  {ratio:>12}  {least:>8}  {}{curvature}",
             analysis.faces(),
             verdict.lambda,
             verdict.mu,
-            verdict.ratio,
             verdict.tangent,
         );
     }

@@ -12,7 +12,7 @@ use std::str::FromStr;
 #[command(after_help = exit::HELP)]
 pub struct AnalyseArgs {
     /// The scheme; the same as --scheme.
-    #[arg(value_enum, value_name = "SCHEME")]
+    #[arg(value_enum, value_name = "SCHEME", conflicts_with = "scheme")]
     name: Option<Name>,
     /// Faces around a vertex, or sides of a face: numbers and ranges such as 3..8,12.
     #[arg(long, value_name = "N,...", default_value = "3..12")]

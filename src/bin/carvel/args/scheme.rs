@@ -148,17 +148,13 @@ impl SchemeArgs {
         }
     }
 
-    /// The scheme asked for, with a name that stands beside the options.
+    /// The scheme asked for, by a name that stands for the option.
     ///
     /// # Errors
-    /// As [`SchemeArgs::choose`]; a name and another one as an option.
+    /// As [`SchemeArgs::choose`].
     pub(super) fn choose_named(&self, name: Option<Name>) -> Result<Chosen, Failure> {
-        let Some(name) = name else { return self.choose(SchemeTags::default()) };
-        if self.scheme != Name::default() && self.scheme != name {
-            let (name, other) = (spelled(&name), spelled(&self.scheme));
-            return Err(Failure::usage(format!("two schemes: {name} and --scheme {other}")));
-        }
-        Self { scheme: name, ..self.clone() }.choose(SchemeTags::default())
+        let scheme = name.unwrap_or(self.scheme);
+        Self { scheme, ..self.clone() }.choose(SchemeTags::default())
     }
 
     /// The tags that no option overrules.
