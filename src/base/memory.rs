@@ -18,6 +18,13 @@ pub(crate) fn zeroed<T: Zeroable>(len: usize) -> Result<Vec<T>> {
     Ok(list)
 }
 
+/// The same, as long as asked for and no longer: for what is kept by the caller.
+pub(crate) fn zeroed_exact<T: Zeroable>(len: usize) -> Result<Vec<T>> {
+    let mut list = try_zeroed_vec(len).map_err(|()| refused::<T>(len))?;
+    prefer_huge(&mut list);
+    Ok(list)
+}
+
 /// An array of one value.
 pub(crate) fn filled<T: Copy>(value: T, len: usize) -> Result<Vec<T>> {
     let mut list = reserved(len)?;

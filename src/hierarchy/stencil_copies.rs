@@ -15,6 +15,12 @@ use std::ops::Range;
 /// Steps up to which patterns are few beside rows.
 const DEEPEST: u32 = 6;
 
+/// Kinds per thread between two looks at the memory that their rows take.
+const AT_ONCE: usize = 64;
+
+/// The part of the work that is done before rows are made, as far as progress tells.
+const PREPARED: f64 = 0.2;
+
 /// Where the rows of a task can be copied from.
 pub(super) struct Copies<'a> {
     hierarchy: &'a Hierarchy,
@@ -37,6 +43,7 @@ impl<'a> Copies<'a> {
     /// Nothing where no face's rows can be copied. Neither the decision nor the rows depend
     /// on which vertices are asked for. There are `rows` vertices in the last level.
     pub(super) fn new(
+        context: &Context,
         hierarchy: &'a Hierarchy,
         task: &StencilTask<'a>,
         rows: u32,
@@ -49,7 +56,7 @@ impl<'a> Copies<'a> {
         let sizes = (task.from..task.to).map(|level| hierarchy.mesh(level).vertices() as u32);
         let firsts = memory::collect(sizes.chain([rows]))?;
         let runs = Runs::new(mesh, scheme.pieces(), firsts)?;
-        let sorts = Sorts::new(mesh, scheme, &runs, depth)?;
+        let sorts = Sorts::new(context, mesh, scheme, &runs, depth)?;
         let some = sorts.len() > 0;
         Ok(some.then_some(Self { hierarchy, task: *task, mesh, depth, runs, sorts }))
     }
@@ -170,38 +177,43 @@ impl<'a> Copies<'a> {
         }
     }
 
-    /// The rows of the sorts that are wanted, none of the others.
+    /// The rows of the sorts that are wanted, none of the others. They count against the ceiling.
     fn patterns<T: Scalar>(
         &self,
         context: &Context,
         wanted: &[bool],
     ) -> Result<Vec<PlacedRows<T>>> {
         let mut patterns = Patterns::new(self.hierarchy, &self.task)?;
-        let kinds = self.sorts.kinds(wanted)?;
-        for &(face, _) in kinds.iter().filter(|kind| kind.1) {
+        let (kinds, sorts) = self.sorts.kinds(wanted)?;
+        for (done, &(face, _)) in kinds.iter().enumerate() {
+            context.report(PREPARED * done as f64 / kinds.len() as f64)?;
             patterns.prepare(face, self.depth)?;
         }
-        let kinds = context.map(kinds, |(face, wanted)| {
-            if !wanted {
-                return Ok(PlacedRows::none());
-            }
+        // What all sorts of a kind have in common is forgotten before the next kind.
+        let of_kind = |(face, range): (u32, Range<usize>)| -> Result<Vec<PlacedRows<T>>> {
             let mut ring = Ring::default();
             ring.walk_once(self.mesh, face);
-            patterns.rows(face, &ring, self.depth)
-        })?;
-        let mut made = memory::reserved(kinds.len())?;
-        for kind in kinds {
-            made.push(kind?);
+            let rows = patterns.rows::<T>(face, &ring, self.depth)?;
+            let mut selected = memory::reserved(range.len())?;
+            for &sort in &sorts[range] {
+                selected.push(rows.select(&self.sorts.slots(sort as usize).slots)?);
+            }
+            Ok(selected)
+        };
+        let mut made = memory::reserved(wanted.len())?;
+        made.extend(wanted.iter().map(|_| PlacedRows::none()));
+        let (mut bytes, mut places) = (patterns.bytes(), sorts.iter());
+        for some in kinds.chunks(AT_ONCE * context.threads()) {
+            context.check_memory(bytes)?;
+            for of_kind in context.map(memory::collect(some.iter().cloned())?, of_kind)? {
+                for (rows, &sort) in of_kind?.into_iter().zip(&mut places) {
+                    bytes += rows.bytes();
+                    made[sort as usize] = rows;
+                }
+            }
         }
-        let mut sorts = memory::reserved(wanted.len())?;
-        for (sort, &wanted) in wanted.iter().enumerate() {
-            sorts.push(if wanted {
-                made[self.sorts.kind(sort)].select(&self.sorts.slots(sort).slots)?
-            } else {
-                PlacedRows::none()
-            });
-        }
-        Ok(sorts)
+        context.report(PREPARED)?;
+        Ok(made)
     }
 
     /// The rows of vertices, ascending, that are made one by one.

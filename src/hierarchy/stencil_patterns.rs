@@ -75,6 +75,11 @@ impl<'a> Patterns<'a> {
         Ok(())
     }
 
+    /// Bytes of what was prepared.
+    pub(super) fn bytes(&self) -> u64 {
+        self.known.values().map(PlacedRows::bytes).sum()
+    }
+
     fn children(&self, level: u32, face: u32) -> Range<u32> {
         match self.hierarchy.scheme().pieces() {
             Pieces::Quads => self.hierarchy.mesh(level).layout.face(face),

@@ -7,7 +7,7 @@ use crate::mesh::{Mesh, VertexSet};
 const MOST_SIDES: usize = 16;
 const MOST_FACES: u32 = 32;
 /// Vertices of a ring: as many as a byte can count.
-const MOST_VERTICES: usize = 255;
+pub(super) const MOST_VERTICES: usize = 255;
 
 /// A short list on the stack.
 #[derive(Clone)]

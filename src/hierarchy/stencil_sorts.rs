@@ -6,14 +6,18 @@
 //! edges too.
 
 use super::stencil_block::{Block, Led};
-use super::stencil_ring::{Ring, Walker};
+use super::stencil_ring::{MOST_VERTICES, Ring, Walker};
 use super::stencil_runs::Runs;
-use crate::base::{Error, ErrorKind, NONE, Result, memory};
+use crate::base::{Context, Error, ErrorKind, NONE, Result, memory};
 use crate::mesh::Mesh;
 use crate::refine::Pieces;
 use crate::scheme::Scheme;
 use std::collections::HashMap;
 use std::hash::Hash;
+use std::ops::Range;
+
+/// Faces between two looks at whether to go on.
+const CANCEL_EVERY: u32 = 1 << 12;
 
 /// The sorts of all faces of a mesh.
 pub(super) struct Sorts {
@@ -31,7 +35,13 @@ pub(super) struct Sorts {
 }
 
 impl Sorts {
-    pub(super) fn new(mesh: &Mesh, scheme: &Scheme, runs: &Runs, depth: u32) -> Result<Self> {
+    pub(super) fn new(
+        context: &Context,
+        mesh: &Mesh,
+        scheme: &Scheme,
+        runs: &Runs,
+        depth: u32,
+    ) -> Result<Self> {
         let mut walker = Walker::new(mesh, scheme.ruled_vertices(mesh))?;
         let mut known = Known::new(scheme.pieces(), depth);
         let mut ring = Ring::default();
@@ -45,7 +55,12 @@ impl Sorts {
         };
         sorts.starts.push(0);
         for face in 0..mesh.layout.faces() {
-            let sort = if walker.walk(face, &mut ring) {
+            if face.is_multiple_of(CANCEL_EVERY) {
+                context.check_cancelled()?;
+            }
+            // Places are counted in 32 bits; faces beyond go without a sort.
+            let room = sorts.rings.len() < NONE as usize - MOST_VERTICES;
+            let sort = if room && walker.walk(face, &mut ring) {
                 memory::grow(&mut sorts.rings, ring.vertices.len())?;
                 sorts.rings.extend_from_slice(&ring.vertices);
                 sorts.sort(&mut known, face, &ring.signature, runs.leads(face))?
@@ -105,19 +120,21 @@ impl Sorts {
         self.list.len()
     }
 
-    /// A face of every kind, and whether it is that of a sort that is wanted.
-    pub(super) fn kinds(&self, wanted: &[bool]) -> Result<Vec<(u32, bool)>> {
-        let mut kinds = memory::collect(self.kinds.iter().map(|&face| (face, false)))?;
-        for (&(kind, _), wanted) in self.list.iter().zip(wanted) {
-            kinds[kind as usize].1 |= wanted;
+    /// Every kind with a sort that is wanted: a face of it, and where its sorts stand in the
+    /// list that comes along.
+    pub(super) fn kinds(&self, wanted: &[bool]) -> Result<(Vec<OfKind>, Vec<u32>)> {
+        let numbers = (0..self.list.len() as u32).filter(|&sort| wanted[sort as usize]);
+        let mut sorts = memory::collect(numbers)?;
+        let kind = |sort: u32| self.list[sort as usize].0;
+        sorts.sort_unstable_by_key(|&sort| (kind(sort), sort));
+        let mut kinds = Vec::new();
+        let mut first = 0;
+        for alike in sorts.chunk_by(|&a, &b| kind(a) == kind(b)) {
+            let face = self.kinds[kind(alike[0]) as usize];
+            memory::extend(&mut kinds, [(face, first..first + alike.len())])?;
+            first += alike.len();
         }
-        Ok(kinds)
-    }
-
-    /// The kind of a sort.
-    #[inline]
-    pub(super) fn kind(&self, sort: usize) -> usize {
-        self.list[sort].0 as usize
+        Ok((kinds, sorts))
     }
 
     /// The slots of a sort.
@@ -133,6 +150,9 @@ impl Sorts {
         &self.rings[start..end]
     }
 }
+
+/// A face of a kind, and the range of its sorts.
+pub(super) type OfKind = (u32, Range<usize>);
 
 /// A list's number among others.
 type Numbers = HashMap<Vec<u32>, u32>;

@@ -78,7 +78,7 @@ impl Hierarchy {
         };
         let rows = self.vertices_after(context, before)?;
         check_vertices(task.vertices, rows as usize)?;
-        if let Some(copies) = Copies::new(self, task, rows)? {
+        if let Some(copies) = Copies::new(context, self, task, rows)? {
             return copies.table(context);
         }
         self.rows_by_stages(context, task)

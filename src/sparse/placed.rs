@@ -50,6 +50,11 @@ impl<T: Scalar> PlacedRows<T> {
         self.offsets[rows.start] as usize..self.offsets[rows.end] as usize
     }
 
+    /// Bytes in use.
+    pub(crate) fn bytes(&self) -> u64 {
+        4 * self.offsets.len() as u64 + (1 + T::BYTES) * self.places.len() as u64
+    }
+
     /// The places and weights of a row.
     pub(crate) fn row(&self, row: usize) -> (&[u8], &[T]) {
         let range = self.entries(row..row + 1);
@@ -94,8 +99,12 @@ impl<T: Scalar> PlacedWriter<T> {
 
     /// The rows.
     pub(crate) fn finish(mut self) -> PlacedRows<T> {
-        self.rows.places.truncate(self.len);
-        self.rows.weights.truncate(self.len);
+        let PlacedRows { places, weights, .. } = &mut self.rows;
+        places.truncate(self.len);
+        weights.truncate(self.len);
+        // Most of the room was for rows without zeros.
+        places.shrink_to_fit();
+        weights.shrink_to_fit();
         self.rows
     }
 }
@@ -179,9 +188,9 @@ pub(crate) fn filled<T: Scalar>(
     check_size("rows", rows)?;
     check_size("entries", entries)?;
     context.check_memory(4 * rows as u64 + (4 + T::BYTES) * entries as u64)?;
-    let mut offsets = memory::zeroed(rows + 1)?;
-    let mut indices = memory::zeroed(entries)?;
-    let mut weights = memory::zeroed(entries)?;
+    let mut offsets = memory::zeroed_exact(rows + 1)?;
+    let mut indices = memory::zeroed_exact(entries)?;
+    let mut weights = memory::zeroed_exact(entries)?;
     let mut jobs = memory::reserved(parts.len())?;
     let (mut ends, mut rest) = (&mut offsets[1..], (&mut indices[..], &mut weights[..]));
     let mut first = 0;
