@@ -11,6 +11,7 @@ pub mod curve;
 pub mod hierarchy;
 #[cfg(feature = "io")]
 pub mod io;
+pub mod limit;
 pub mod mesh;
 pub mod refine;
 pub mod scheme;

@@ -5,12 +5,12 @@
 //! on a sampling: the ring of faces around the innermost ones, refined a few times, as all
 //! that lies farther inside is a smaller copy of it.
 
-use super::local::{Model, control_reach};
 use super::spectrum::{Side, block, null_vectors, present, turn};
 use super::weights::{Tangents, tangent_mode};
 use super::{LocalMatrix, Spectrum};
 use crate::base::{Context, Error, ErrorKind, Result};
 use crate::hierarchy::Hierarchy;
+use crate::limit::{Model, control_reach};
 use crate::mesh::Mesh;
 use crate::refine::FaceOrigin;
 use crate::scheme::Scheme;

@@ -20,25 +20,19 @@
 //!
 //! | module | its one idea |
 //! |---|---|
-//! | `feature` | a place, and a mesh that shows it |
-//! | `neighbourhood` | the same vertices around it before and after a step |
-//! | `local` | the matrix between them |
 //! | `spectrum` | its eigenvalues, mode by mode |
 //! | `weights` | limits and tangents: left eigenvectors |
 //! | `characteristic` | the map of right eigenvectors, sampled |
 //! | `smoothness` | the verdict |
 
 mod characteristic;
-mod feature;
-mod local;
-mod neighbourhood;
 mod smoothness;
 mod spectrum;
 mod weights;
 
 pub use characteristic::CharacteristicMap;
-pub use feature::Feature;
-pub use local::LocalMatrix;
 pub use smoothness::{Curvature, Smoothness, Tangent};
 pub use spectrum::{Eigenvalue, Spectrum};
 pub use weights::{LimitWeights, VertexWeights};
+
+pub use crate::limit::{Feature, LocalMatrix};

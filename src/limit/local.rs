@@ -18,15 +18,15 @@ const STATIONARY: u32 = 1;
 const RING: u32 = 2;
 
 /// Edges to cross to all vertices that decide the surface of two rings of faces around a feature.
-pub(super) fn control_reach(scheme: &Scheme) -> u32 {
+pub(crate) fn control_reach(scheme: &Scheme) -> u32 {
     6 + 2 * scheme.passes().len() as u32
 }
 
 /// The mesh around a feature after the first step, with the one after that, and the corners
 /// in the middle that correspond.
 #[derive(Debug)]
-pub(super) struct Model {
-    pub(super) hierarchy: Hierarchy,
+pub(crate) struct Model {
+    pub(crate) hierarchy: Hierarchy,
     middle: Vec<[u32; 2]>,
     symmetric: bool,
     passes: u32,
@@ -34,7 +34,7 @@ pub(super) struct Model {
 
 impl Model {
     /// Regular so far that `reach` faces around the feature follow its rules alone.
-    pub(super) fn new(scheme: &Scheme, feature: Feature, reach: u32) -> Result<Self> {
+    pub(crate) fn new(scheme: &Scheme, feature: Feature, reach: u32) -> Result<Self> {
         let passes = scheme.passes().len() as u32;
         // A step looks two faces far, and each pass one more; the first step doubles the rings.
         let rings = (reach + passes).div_ceil(2) + 2;
@@ -51,12 +51,12 @@ impl Model {
     }
 
     /// The mesh that the local matrix takes vertices from.
-    pub(super) fn mesh(&self) -> &Mesh {
+    pub(crate) fn mesh(&self) -> &Mesh {
         self.hierarchy.mesh(STATIONARY)
     }
 
     /// The faces in the middle, in [`Model::mesh`]: one, or those around a vertex.
-    pub(super) fn innermost(&self) -> Vec<u32> {
+    pub(crate) fn innermost(&self) -> Vec<u32> {
         let mesh = self.mesh();
         let first = self.middle[0][0];
         match self.hierarchy.scheme().split() {
@@ -201,7 +201,7 @@ impl<W: Weight> LocalMatrix<W> {
     }
 
     /// The matrix of all vertices up to `reach` edges away, at least.
-    pub(super) fn of_model(model: &Model, feature: Feature, reach: Option<u32>) -> Result<Self> {
+    pub(crate) fn of_model(model: &Model, feature: Feature, reach: Option<u32>) -> Result<Self> {
         let reach = reach.unwrap_or(RING);
         let around = model.neighbourhood(reach);
         let mut chosen: Vec<usize> =
@@ -278,12 +278,12 @@ impl<W: Weight> LocalMatrix<W> {
     }
 
     /// The vertices of an orbit in the mesh of the model.
-    pub(super) fn orbit_vertices(&self, orbit: usize) -> &[u32] {
+    pub(crate) fn orbit_vertices(&self, orbit: usize) -> &[u32] {
         &self.vertices[orbit]
     }
 
     /// Calls `row` with every vertex of the model that has a row, and what it is made of.
-    pub(super) fn each_vertex(
+    pub(crate) fn each_vertex(
         &self,
         mut row: impl FnMut(u32, &mut dyn Iterator<Item = (u32, &W)>),
     ) {
