@@ -4,6 +4,7 @@ use crate::base::{Context, Crease, Error, ErrorKind, Result, SharpVertex};
 use crate::mesh::{BuildOptions, Mesh, build};
 use crate::refine::Pieces;
 use crate::scheme::{Boundary, Scheme, SplitKind};
+use std::f64::consts::TAU;
 use std::fmt;
 
 /// The sharpness of what stays sharp for ever.
@@ -62,6 +63,30 @@ impl Feature {
 
     fn is_closed(self) -> bool {
         !matches!(self, Self::Boundary { .. } | Self::Corner { .. })
+    }
+
+    /// The vertices of a model in the plane: rays at equal angles, in all a full turn inside
+    /// the mesh, half a turn on the boundary, a quarter at a corner.
+    pub(super) fn plane(self, rings: u32) -> Vec<[f64; 2]> {
+        let plan = Plan { sectors: self.faces() as u32, rings, closed: self.is_closed() };
+        let whole = match self {
+            Self::Corner { .. } => TAU / 4.0,
+            Self::Boundary { .. } => TAU / 2.0,
+            _ => TAU,
+        };
+        let ray = |sector: u32| {
+            let angle = whole * f64::from(sector) / f64::from(plan.sectors);
+            [libm::cos(angle), libm::sin(angle)]
+        };
+        let mut points = vec![[0.0; 2]; plan.vertices()];
+        for sector in 0..plan.sectors {
+            let [along, across] = [ray(sector), ray(sector + 1)];
+            for (i, j) in (0..=rings).flat_map(|i| (0..=rings).map(move |j| (i, j))) {
+                let at = |k: usize| f64::from(i) * along[k] + f64::from(j) * across[k];
+                points[plan.vertex(sector, i, j) as usize] = [at(0), at(1)];
+            }
+        }
+        points
     }
 
     fn check(self, scheme: &Scheme) -> Result<()> {

@@ -18,6 +18,7 @@ const STATIONARY: u32 = 1;
 const RING: u32 = 2;
 
 /// Edges to cross to all vertices that decide the surface of two rings of faces around a feature.
+#[cfg(feature = "analysis")]
 pub(crate) fn control_reach(scheme: &Scheme) -> u32 {
     6 + 2 * scheme.passes().len() as u32
 }
@@ -27,7 +28,9 @@ pub(crate) fn control_reach(scheme: &Scheme) -> u32 {
 #[derive(Debug)]
 pub(crate) struct Model {
     pub(crate) hierarchy: Hierarchy,
-    middle: Vec<[u32; 2]>,
+    /// Rings of faces around the feature in the control mesh.
+    pub(super) rings: u32,
+    pub(super) middle: Vec<[u32; 2]>,
     symmetric: bool,
     passes: u32,
 }
@@ -47,7 +50,7 @@ impl Model {
         corners.push(children(&hierarchy, &corners[0])?);
         let middle =
             corners[0].iter().zip(&corners[1]).map(|(&parent, &child)| [parent, child]).collect();
-        Ok(Self { hierarchy, middle, symmetric: feature.is_symmetric(), passes })
+        Ok(Self { hierarchy, rings, middle, symmetric: feature.is_symmetric(), passes })
     }
 
     /// The mesh that the local matrix takes vertices from.
@@ -56,6 +59,7 @@ impl Model {
     }
 
     /// The faces in the middle, in [`Model::mesh`]: one, or those around a vertex.
+    #[cfg(feature = "analysis")]
     pub(crate) fn innermost(&self) -> Vec<u32> {
         let mesh = self.mesh();
         let first = self.middle[0][0];
@@ -86,8 +90,7 @@ impl Model {
     }
 }
 
-/// The corners of the face that a dual scheme puts in the place of vertex 0; those of a face
-/// at the boundary from its boundary edge on.
+/// The corners of the face that a dual scheme puts in the place of vertex 0.
 fn face_corners(hierarchy: &Hierarchy, feature: Feature) -> Result<Vec<u32>> {
     let origins = hierarchy.face_origins(STATIONARY)?;
     let face = origins.iter().position(|&origin| origin == FaceOrigin::Vertex(0));
@@ -96,10 +99,16 @@ fn face_corners(hierarchy: &Hierarchy, feature: Feature) -> Result<Vec<u32>> {
         Error::new(ErrorKind::Unsupported, message)
     })?;
     let mesh = hierarchy.mesh(STATIONARY);
-    let mut corners: Vec<u32> = mesh.layout.face(face as u32).collect();
-    let first = corners.iter().position(|&c| mesh.twin[c as usize] == NONE);
+    Ok(corners_in_order(mesh, face as u32))
+}
+
+/// The corners of a face; of one at the boundary from the first boundary edge on.
+pub(super) fn corners_in_order(mesh: &Mesh, face: u32) -> Vec<u32> {
+    let mut corners: Vec<u32> = mesh.layout.face(face).collect();
+    let open = |corner: u32| mesh.twin[corner as usize] == NONE;
+    let first = corners.iter().position(|&c| open(c) && !open(mesh.prev(c)));
     corners.rotate_left(first.unwrap_or(0));
-    Ok(corners)
+    corners
 }
 
 /// The child corners that correspond to the corners in the middle.

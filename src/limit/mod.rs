@@ -8,12 +8,25 @@
 //! | `feature` | a place, and a mesh that shows it |
 //! | `neighbourhood` | the same vertices around it before and after a step |
 //! | `local` | the matrix between them |
+//! | `weights` | its left eigenvectors |
+//! | `rule` | a limit, and the way to the vertices that it is made of |
+//! | `centres` | which rule holds where |
+//! | `part` | a part of a mesh |
+//! | `rows` | the limits of all vertices, whatever is near them |
+//! | `limits` | positions, tangents, normals |
 
+mod centres;
 mod feature;
+mod limits;
 mod local;
 mod neighbourhood;
+mod part;
+mod rows;
+mod rule;
+mod weights;
 
 pub use feature::Feature;
+pub use limits::Limits;
 pub use local::LocalMatrix;
 #[cfg(feature = "analysis")]
 pub(crate) use local::{Model, control_reach};

@@ -71,16 +71,16 @@ impl Neighbourhood {
 }
 
 /// A corner seen for the first time on a walk.
-struct Step {
+pub(super) struct Step {
     /// In the parent and in the child.
-    corners: [u32; 2],
-    distance: u32,
+    pub(super) corners: [u32; 2],
+    pub(super) distance: u32,
     /// The step before, and whether it was left across its edge; a start has none.
-    from: Option<(usize, bool)>,
+    pub(super) from: Option<(usize, bool)>,
 }
 
 /// Goes from corner to corner in both meshes as long as they agree, breadth first.
-fn walk(meshes: [&Mesh; 2], starts: &[[u32; 2]], reach: u32) -> Vec<Step> {
+pub(super) fn walk(meshes: [&Mesh; 2], starts: &[[u32; 2]], reach: u32) -> Vec<Step> {
     let [parent, child] = meshes;
     let sides = |mesh: &Mesh, corner| mesh.layout.face(mesh.layout.face_of(corner)).len();
     let start = |&corners: &[u32; 2]| Step { corners, distance: 0, from: None };

@@ -45,7 +45,7 @@ pub(crate) use joints::Joints;
 pub(crate) use layout::{Layout, next_in_triangle, prev_in_triangle, turn_in_quad};
 pub(crate) use near::Near;
 pub(crate) use ring::{QuadWalker, VertexSet};
-pub(crate) use sharpness::Sharpness;
+pub(crate) use sharpness::{INFINITE, Sharpness};
 pub use survey::Survey;
 
 use crate::base::{Crease, Error, NONE, Result, SharpVertex};

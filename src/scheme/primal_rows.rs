@@ -195,7 +195,7 @@ impl<'a, W: Weight> PrimalRows<'a, W> {
 
 impl Scheme {
     /// The sharpness of a vertex with what the boundary mode adds.
-    pub(super) fn vertex_sharpness(&self, mesh: &Mesh, vertex: u32) -> f32 {
+    pub(crate) fn vertex_sharpness(&self, mesh: &Mesh, vertex: u32) -> f32 {
         let single = self.boundary() == Boundary::EdgeAndCorner
             && mesh.on_rim(vertex)
             && mesh.fans(vertex).nth(1).is_none();

@@ -13,3 +13,4 @@ mod patches;
 mod properties;
 mod support;
 mod topology;
+mod vertex_limits;

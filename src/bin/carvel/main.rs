@@ -33,6 +33,7 @@ mod holes;
 mod info;
 mod input;
 mod interrupt;
+mod limit;
 mod matrix;
 mod memory;
 mod picture;

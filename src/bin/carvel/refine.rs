@@ -2,6 +2,7 @@
 
 use crate::args::{Chosen, NumberType};
 use crate::carry::{self, Load};
+use crate::limit::{self, Wanted};
 use crate::memory::zeroed;
 use crate::precise::Precise;
 use crate::texture::{self, Texture};
@@ -38,6 +39,8 @@ pub struct Work<'a> {
     pub plan: &'a Prediction,
     /// Whether holes are written.
     pub keep_holes: bool,
+    /// What to make of the last level's vertices.
+    pub limit: Wanted,
 }
 
 /// A refined mesh.
@@ -119,6 +122,7 @@ fn run<T: Precise>(refiner: &mut Refiner<T>, context: &Context, work: &Work) -> 
     if let (Some(texture), Some(refined)) = (&texture, refined) {
         texture.unload(refined, &faces, &mut file);
     }
+    limit::finish(context, work, &mut file)?;
     if features {
         tags::unload(work, &mut file)?;
     }

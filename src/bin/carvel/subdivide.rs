@@ -4,6 +4,7 @@ use crate::args::{Chosen, NumberType, SubdivideArgs};
 use crate::exit::{Doing, Exit, Failure};
 use crate::faults;
 use crate::input::{Input, ends_the_run};
+use crate::limit::Wanted;
 use crate::picture;
 use crate::places::{self, Job, Wish};
 use crate::precise::Precise;
@@ -180,8 +181,9 @@ impl Run<'_> {
         let plan = predict(&built.mesh, &chosen.scheme, levels).map_err(of_work)?;
         self.session.console.phase("refining", &input.name);
         let (control, keep_holes) = (&input.file, self.args.keep_holes);
-        let work =
-            Work { control, built: &built, chosen: &chosen, levels, plan: &plan, keep_holes };
+        let limit = Wanted { positions: self.args.limit, normals: self.args.normals };
+        let (built, plan) = (&built, &plan);
+        let work = Work { control, built, chosen: &chosen, levels, plan, keep_holes, limit };
         let outcome = timed(&mut seconds.refine, || self.engine.run(&self.session.context, &work));
         let outcome = outcome.map_err(of_work)?;
         let Outcome { file, notes: lost, holes, anchored, scratch, predicted } = outcome;
@@ -190,13 +192,13 @@ impl Run<'_> {
             return Err(Failure::new(Exit::Mesh, message));
         }
         let mut notes = input.file.notes.clone();
-        notes.extend(not_manifold(&input.file, &built));
+        notes.extend(not_manifold(&input.file, built));
         notes.extend(lost);
         notes.extend(left_out(holes));
         if !chosen.has_features() {
             notes.extend(tags::ignored(&input.file, &chosen.name));
         }
-        let (levels, scratch, predicted) = (Level::all(&plan), Some(scratch), Some(predicted));
+        let (levels, scratch, predicted) = (Level::all(plan), Some(scratch), Some(predicted));
         Ok(Made { file, chosen, levels, anchored, scratch, predicted, holes, notes })
     }
 

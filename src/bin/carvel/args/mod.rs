@@ -90,6 +90,13 @@ pub struct SubdivideArgs {
     /// The number type that is computed in and written.
     #[arg(long, value_enum, default_value_t, value_name = "TYPE", help_heading = "Output")]
     pub precision: NumberType,
+    /// Move the vertices of the last level to their limits on the surface.
+    #[arg(long, help_heading = "Output")]
+    pub limit: bool,
+    /// Write the normals of the limit surface at the vertices of the last level, in place of
+    /// normals that the input has; for OBJ and PLY.
+    #[arg(long, help_heading = "Output")]
+    pub normals: bool,
     /// Also draw the result as a PNG picture (a directory for several inputs).
     #[arg(long, value_name = "PNG", help_heading = "Picture")]
     pub preview: Option<PathBuf>,
@@ -123,6 +130,11 @@ impl SubdivideArgs {
         self.scheme.require_features("--keep-holes", self.keep_holes)?;
         self.scheme.require_features("--crease-angle", self.creases.angle().is_some())?;
         self.creases.check()?;
+        if self.levels == 0 && (self.limit || self.normals) {
+            let message = "--limit and --normals come after one level at least, not after a \
+                           plain conversion (--levels 0)";
+            return Err(exit::Failure::usage(message));
+        }
         if self.anchored && chosen.scheme.split() != SplitKind::Corner {
             let message = format!("--anchored belongs to dual schemes, not to {}", chosen.name);
             return Err(exit::Failure::usage(message));

@@ -1,0 +1,278 @@
+//! Limits of vertices against deep refinement, and against themselves one level on.
+
+use super::support::poly::Poly;
+use super::support::{bases, kernel};
+use carvel::hierarchy::Hierarchy;
+use carvel::limit::Limits;
+use carvel::mesh::BuildOptions;
+use carvel::{Boundary, Context, CornerRule, Crease, ErrorKind, Fraction, Mesh, Scheme};
+use carvel::{Records, RecordsMut, SharpVertex};
+use std::sync::Arc;
+
+fn xyz(of: &Poly<f64>) -> Vec<f64> {
+    kernel::coordinates(of)
+}
+
+/// Limit positions and both tangents of a mesh's vertices, xyz each.
+fn limits(mesh: &Arc<Mesh>, scheme: &Scheme, positions: &[f64]) -> [Vec<f64>; 3] {
+    let limits = Limits::<f64>::new(&Context::serial(), mesh, scheme).unwrap();
+    let [first, second] = limits.tangents();
+    [limits.position(), first, second].map(|table| {
+        let mut out = vec![0.0; positions.len()];
+        let records = Records::packed(positions, 3);
+        table.apply(&Context::serial(), records, RecordsMut::packed(&mut out, 3)).unwrap();
+        out
+    })
+}
+
+fn at(list: &[f64], v: usize) -> [f64; 3] {
+    [0, 1, 2].map(|k| list[3 * v + k])
+}
+
+fn apart(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a.iter().zip(b).fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()))
+}
+
+fn refined(hierarchy: &Hierarchy, level: u32, positions: &[f64]) -> Vec<f64> {
+    kernel::refine_values(hierarchy, level, positions, 3)
+}
+
+/// Any mesh with sharp edges of all kinds: every third edge, by turns 1.5, 0.7 and for ever.
+fn creased(of: &Poly<f64>) -> Mesh {
+    let plain = kernel::mesh(of);
+    let sharpness = [1.5, 0.7, 10.0];
+    let edges: Vec<[u32; 2]> = plain.edge_vertices().collect();
+    let creases: Vec<Crease> = edges
+        .iter()
+        .step_by(3)
+        .zip(sharpness.into_iter().cycle())
+        .map(|(&vertices, sharpness)| Crease { vertices, sharpness })
+        .collect();
+    let sharp_vertices = [SharpVertex { vertex: 1, sharpness: 1.3 }];
+    let options =
+        BuildOptions { creases: &creases, sharp_vertices: &sharp_vertices, ..Default::default() };
+    kernel::Soup::new(of.positions.len(), &of.faces).build(&options).unwrap().mesh
+}
+
+fn quad_meshes() -> Vec<Poly<f64>> {
+    vec![
+        bases::cube(),
+        bases::prism(5),
+        bases::pyramid(6),
+        bases::dodecahedron(),
+        bases::grid(4, 3),
+        bases::half_fan(3),
+        bases::frame(),
+        bases::torus(3, 4),
+    ]
+}
+
+fn triangle_meshes() -> Vec<Poly<f64>> {
+    vec![bases::tetrahedron(), bases::octahedron(), bases::bipyramid(7), bases::triangle_grid(3, 4)]
+}
+
+/// The limit of a vertex that stays is the same from one level on.
+fn assert_stays(scheme: &Scheme, mesh: Mesh, positions: &[f64]) {
+    let count = mesh.vertices();
+    let hierarchy = Hierarchy::new(&Context::serial(), mesh, scheme.clone(), 1).unwrap();
+    let [here, ..] = limits(&hierarchy.shared_mesh(0).unwrap(), scheme, positions);
+    let next = refined(&hierarchy, 1, positions);
+    let [there, ..] = limits(&hierarchy.shared_mesh(1).unwrap(), scheme, &next);
+    for v in 0..count {
+        let off = apart(at(&here, v), at(&there, v));
+        assert!(off < 1e-12, "{scheme:?}: vertex {v} of {count} is {off} off");
+    }
+}
+
+#[test]
+fn primal_limits_do_not_depend_on_the_level() {
+    let schemes = [
+        Scheme::catmull_clark(),
+        Scheme::catmull_clark().with_boundary(Boundary::Edge),
+        Scheme::catmull_clark().with_boundary(Boundary::None),
+        Scheme::bilinear(),
+        Scheme::primal(&[Fraction::new(0, 1).unwrap()]).unwrap(),
+        Scheme::primal(&[Fraction::new(0, 1).unwrap(), Fraction::new(0, 1).unwrap()]).unwrap(),
+    ];
+    for scheme in &schemes {
+        for mesh in quad_meshes() {
+            assert_stays(scheme, kernel::mesh(&mesh), &xyz(&mesh));
+        }
+    }
+    for scheme in [Scheme::loop_triangles(), Scheme::loop_triangles().with_boundary(Boundary::Edge)]
+    {
+        for mesh in triangle_meshes() {
+            assert_stays(&scheme, kernel::mesh(&mesh), &xyz(&mesh));
+        }
+    }
+}
+
+#[test]
+fn limits_on_creases_do_not_depend_on_the_level() {
+    for mesh in quad_meshes() {
+        assert_stays(&Scheme::catmull_clark(), creased(&mesh), &xyz(&mesh));
+    }
+    for mesh in triangle_meshes() {
+        assert_stays(&Scheme::loop_triangles(), creased(&mesh), &xyz(&mesh));
+    }
+}
+
+/// How far the limits are from the vertices, or the middles of the faces in their places,
+/// after each of some levels.
+fn distances(scheme: &Scheme, of: &Poly<f64>, levels: u32) -> Vec<f64> {
+    let positions = xyz(of);
+    let mesh = kernel::mesh(of);
+    let hierarchy = Hierarchy::new(&Context::serial(), mesh, scheme.clone(), levels).unwrap();
+    let [limit, ..] = limits(&hierarchy.shared_mesh(0).unwrap(), scheme, &positions);
+    let dual = scheme.split() == carvel::SplitKind::Corner;
+    let mut faces: Vec<Option<u32>> = Vec::new();
+    let mut all = Vec::new();
+    for level in 1..=levels {
+        let values = refined(&hierarchy, level, &positions);
+        let fine = hierarchy.mesh(level);
+        if dual {
+            use carvel::refine::FaceOrigin;
+            let origins = hierarchy.face_origins(level).unwrap();
+            let find = |wanted: FaceOrigin| origins.iter().position(|&o| o == wanted);
+            faces = match level {
+                1 => (0..positions.len() as u32 / 3)
+                    .map(|v| find(FaceOrigin::Vertex(v)).map(|f| f as u32))
+                    .collect(),
+                _ => faces
+                    .iter()
+                    .map(|f| f.and_then(|f| find(FaceOrigin::Face(f))).map(|f| f as u32))
+                    .collect(),
+            };
+        }
+        let middle = |v: usize| {
+            if !dual {
+                return Some(at(&values, v));
+            }
+            let corners = fine.face_vertices(faces[v]? as usize);
+            let sum = |k: usize| corners.iter().map(|&c| values[3 * c as usize + k]).sum::<f64>();
+            Some([0, 1, 2].map(|k| sum(k) / corners.len() as f64))
+        };
+        let off = (0..positions.len() / 3).filter_map(|v| Some(apart(middle(v)?, at(&limit, v))));
+        all.push(off.fold(0.0, f64::max));
+    }
+    all
+}
+
+fn three_point() -> Scheme {
+    Scheme::three_point(Fraction::new(1, 32).unwrap()).unwrap()
+}
+
+#[test]
+fn refinement_goes_to_the_limits() {
+    let quartic = Scheme::three_point(Fraction::new(1, 16).unwrap()).unwrap();
+    let schemes = [
+        three_point(),
+        three_point().with_rule(CornerRule::Average),
+        three_point().with_boundary(Boundary::Edge),
+        quartic,
+        Scheme::doo_sabin(),
+        Scheme::catmull_clark(),
+    ];
+    for scheme in &schemes {
+        for mesh in quad_meshes() {
+            let off = distances(scheme, &mesh, 5);
+            // The mean of a face's corners errs by a factor λ or μ per level; beside the wrong
+            // limit the distance would settle.
+            let (last, before) = (off[4], off[3]);
+            assert!(last < 0.75 * before || last < 1e-13, "{scheme:?}: {off:?}");
+        }
+    }
+}
+
+#[test]
+fn closed_forms_of_the_field() {
+    let of = bases::torus(6, 6);
+    let mesh = Arc::new(kernel::mesh(&of));
+    let weights = |scheme: &Scheme| {
+        let limits = Limits::<f64>::new(&Context::serial(), &mesh, scheme).unwrap();
+        let mut weights = limits.position().row(7).1.to_vec();
+        weights.sort_by(f64::total_cmp);
+        weights
+    };
+    let tensor = |factors: &[f64]| {
+        let mut all: Vec<f64> =
+            factors.iter().flat_map(|a| factors.iter().map(move |b| a * b)).collect();
+        all.sort_by(f64::total_cmp);
+        all
+    };
+    let close = |found: Vec<f64>, wanted: Vec<f64>| {
+        assert_eq!(found.len(), wanted.len(), "{found:?}");
+        found.iter().zip(wanted).for_each(|(f, w)| assert!((f - w).abs() < 1e-14, "{f} {w}"));
+    };
+    close(weights(&Scheme::catmull_clark()), tensor(&[1.0, 4.0, 1.0].map(|w| w / 6.0)));
+    close(weights(&Scheme::doo_sabin()), tensor(&[1.0, 6.0, 1.0].map(|w| w / 8.0)));
+    let paper = [1.0, 252.0, 1030.0, 252.0, 1.0].map(|w| w / 1536.0);
+    close(weights(&three_point()), tensor(&paper));
+    let quartic = Scheme::three_point(Fraction::new(1, 16).unwrap()).unwrap();
+    close(weights(&quartic), tensor(&[1.0, 76.0, 230.0, 76.0, 1.0].map(|w| w / 384.0)));
+}
+
+fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}
+
+#[test]
+fn normals_point_out_of_round_meshes() {
+    let bilinear = Scheme::bilinear();
+    let schemes = [three_point(), Scheme::doo_sabin(), Scheme::catmull_clark(), bilinear];
+    for scheme in &schemes {
+        for of in [bases::cube(), bases::prism(7), bases::pyramid(5), bases::dodecahedron()] {
+            let (mesh, positions) = (Arc::new(kernel::mesh(&of)), xyz(&of));
+            let limits = Limits::<f64>::new(&Context::serial(), &mesh, scheme).unwrap();
+            let mut normals = vec![0.0; positions.len()];
+            limits.normals(&Context::serial(), &positions, &mut normals).unwrap();
+            let count = positions.len() / 3;
+            let mean = |k: usize| (0..count).map(|v| positions[3 * v + k]).sum::<f64>();
+            let middle = [0, 1, 2].map(|k| mean(k) / count as f64);
+            for v in 0..count {
+                let (n, p) = (at(&normals, v), at(&positions, v));
+                assert!((dot(n, n) - 1.0).abs() < 1e-14);
+                let out = [0, 1, 2].map(|k| p[k] - middle[k]);
+                assert!(dot(n, out) > 0.0, "{scheme:?}: {n:?} at {p:?}");
+            }
+        }
+    }
+}
+
+/// A plane's normal, everywhere, on its boundary and beside a collapsed face too.
+#[test]
+fn normals_of_a_plane() {
+    let mut of = bases::grid(5, 5);
+    of.positions.iter_mut().for_each(|p| p[2] = 0.0);
+    let collapsed = of.positions[7];
+    for &v in &of.faces[9].clone() {
+        of.positions[v] = collapsed;
+    }
+    let (mesh, positions) = (Arc::new(kernel::mesh(&of)), xyz(&of));
+    for scheme in [three_point(), Scheme::catmull_clark(), Scheme::doo_sabin()] {
+        let limits = Limits::<f64>::new(&Context::serial(), &mesh, &scheme).unwrap();
+        let mut normals = vec![0.0; positions.len()];
+        limits.normals(&Context::serial(), &positions, &mut normals).unwrap();
+        for v in 0..positions.len() / 3 {
+            let n = at(&normals, v);
+            assert!(n[2].abs() > 0.999 || n == [0.0; 3], "{scheme:?} vertex {v}: {n:?}");
+        }
+    }
+}
+
+#[test]
+fn what_has_no_limit_is_refused() {
+    let of = bases::grid(2, 2);
+    let mesh = Arc::new(kernel::mesh(&of));
+    let kind =
+        |scheme: &Scheme| Limits::<f64>::new(&Context::serial(), &mesh, scheme).unwrap_err().kind();
+    assert_eq!(kind(&three_point().with_boundary(Boundary::None)), ErrorKind::Unsupported);
+    assert_eq!(kind(&Scheme::loop_triangles()), ErrorKind::Unsupported);
+    let limits = Limits::<f64>::new(&Context::serial(), &mesh, &three_point()).unwrap();
+    let refused = limits.normals(&Context::serial(), &xyz(&of), &mut [0.0; 5]);
+    assert_eq!(refused.unwrap_err().kind(), ErrorKind::LengthMismatch);
+    let context = Context::serial();
+    context.cancel();
+    let cancelled = Limits::<f64>::new(&context, &mesh, &three_point());
+    assert_eq!(cancelled.unwrap_err().kind(), ErrorKind::Cancelled);
+}
