@@ -1489,6 +1489,23 @@ CARVEL_API carvel_status carvel_stencils_create(const carvel_context *context,
                                                 const carvel_stencils_desc *desc,
                                                 carvel_stencils **out, carvel_error *error);
 
+/* Makes the table of where the vertices of a level go: 3 rows for each of its V vertices, on
+ * the same V vertices as columns. Rows 0 to V - 1 are limit positions; V to 2V - 1 a tangent of
+ * the surface there, 2V to 3V - 1 another, counter-clockwise from the first seen from outside,
+ * so that their cross product points along the normal. Lengths of tangents mean nothing; their
+ * rows are empty where the surface has no tangent plane, and those of one side on creases and at
+ * corners. A product with the table of the level gives all this on the control vertices. Under a
+ * dual scheme the limit of a vertex is that of the middle of the faces in its place. O(V), some
+ * microseconds for each vertex.
+ * Errors: NULL_POINTER, MISALIGNED; PARAMETER_OUT_OF_RANGE for a level or a precision
+ * (carvel_precision); UNSUPPORTED where the surface has no such point or the mesh is not
+ * manifold; TOO_LARGE, MEMORY_CEILING, OUT_OF_RESOURCES, CANCELLED. */
+CARVEL_API carvel_status carvel_stencils_create_limits(const carvel_context *context,
+                                                       const carvel_hierarchy *hierarchy,
+                                                       uint32_t level, int32_t precision,
+                                                       carvel_stencils **out,
+                                                       carvel_error *error);
+
 /* The table that does what `first` and then `then` do; both of one precision, which
  * it has as well. O(pairs of entries that meet).
  * Errors: NULL_POINTER, MISALIGNED, LENGTH_MISMATCH unless `then` has a column for each

@@ -1869,6 +1869,19 @@ public:
         return call.result(Stencils(out));
     }
 
+    /* Where the vertices of a level go: rows of positions, of first and of second tangents. */
+    static Result<Stencils> try_limits(const Hierarchy &hierarchy, std::uint32_t level,
+                                       carvel_precision precision = CARVEL_PRECISION_F32,
+                                       const Context *context = nullptr)
+    {
+        detail::Call call;
+        carvel_stencils *out = nullptr;
+        call.status = carvel_stencils_create_limits(detail::raw(context), hierarchy.get(), level,
+                                                    static_cast<std::int32_t>(precision), &out,
+                                                    call.error());
+        return call.result(Stencils(out));
+    }
+
     static Result<Stencils> try_load(const char *path)
     {
         detail::Call call;
@@ -1963,6 +1976,12 @@ public:
                            const Context *context = nullptr)
     {
         return try_create(hierarchy, desc, context).value();
+    }
+    static Stencils limits(const Hierarchy &hierarchy, std::uint32_t level,
+                           carvel_precision precision = CARVEL_PRECISION_F32,
+                           const Context *context = nullptr)
+    {
+        return try_limits(hierarchy, level, precision, context).value();
     }
     static Stencils load(const char *path) { return try_load(path).value(); }
     void save(const char *path) const { try_save(path).value(); }

@@ -9,6 +9,7 @@ use super::versioned::{init_function, initial, read, versioned, write};
 use super::{carvel_context, carvel_error, carvel_hierarchy};
 use crate::base::{Context, Error, ErrorKind, Scalar};
 use crate::hierarchy::{Hierarchy, StencilTask};
+use crate::limit::Limits;
 use crate::sparse::{Dependents, Records, RecordsMut, StencilTable, StoredTable};
 use std::ffi::{CStr, c_char};
 use std::fs::File;
@@ -93,6 +94,26 @@ impl Stencils {
         let table = match desc.precision {
             CARVEL_PRECISION_F32 => StoredTable::F32(hierarchy.stencils(context, &task)?),
             CARVEL_PRECISION_F64 => StoredTable::F64(hierarchy.stencils(context, &task)?),
+            other => return Err(Fault::out_of_range(format!("there is no precision {other}"))),
+        };
+        Ok(table.into())
+    }
+
+    /// Limit positions and tangents of a level on its own vertices.
+    fn limits(
+        context: &Context,
+        hierarchy: &Hierarchy,
+        level: u32,
+        precision: i32,
+    ) -> Result<Self> {
+        let (mesh, scheme) = (hierarchy.shared_mesh(level)?, hierarchy.scheme());
+        let table = match precision {
+            CARVEL_PRECISION_F32 => {
+                StoredTable::F32(Limits::new(context, &mesh, scheme)?.stacked()?)
+            }
+            CARVEL_PRECISION_F64 => {
+                StoredTable::F64(Limits::new(context, &mesh, scheme)?.stacked()?)
+            }
             other => return Err(Fault::out_of_range(format!("there is no precision {other}"))),
         };
         Ok(table.into())
@@ -285,6 +306,26 @@ pub unsafe extern "C" fn carvel_stencils_create(
             call.create(out, |call| {
                 let (context, hierarchy) = (call.context(context)?, call.object(hierarchy)?);
                 Stencils::of(&context, hierarchy, &read(desc)?)
+            })
+        })
+    }
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn carvel_stencils_create_limits(
+    context: *const carvel_context,
+    hierarchy: *const carvel_hierarchy,
+    level: u32,
+    precision: i32,
+    out: *mut *mut carvel_stencils,
+    error: *mut carvel_error,
+) -> carvel_status {
+    // SAFETY: the header's contract.
+    unsafe {
+        call(error, |call| {
+            call.create(out, |call| {
+                let (context, hierarchy) = (call.context(context)?, call.object(hierarchy)?);
+                Stencils::limits(&context, hierarchy, level, precision)
             })
         })
     }

@@ -69,6 +69,26 @@ impl<T: Scalar> Limits<T> {
         self.tangents.each_ref()
     }
 
+    /// One table of three times as many rows: limit positions of all vertices, then their first
+    /// tangents, then their second ones.
+    ///
+    /// # Errors
+    /// [`ErrorKind::TooLarge`] for 2³² − 1 rows or weights and more,
+    /// [`ErrorKind::OutOfResources`].
+    pub fn stacked(&self) -> Result<StencilTable<T>> {
+        let tables = [&self.position, &self.tangents[0], &self.tangents[1]];
+        let (mut offsets, mut indices, mut weights) = (Vec::new(), Vec::new(), Vec::new());
+        memory::extend(&mut offsets, [0])?;
+        for table in tables {
+            let before = indices.len() as u64;
+            let ends = table.offsets()[1..].iter().map(|&end| before + u64::from(end));
+            memory::extend(&mut offsets, ends)?;
+            memory::extend(&mut indices, table.indices().iter().copied())?;
+            memory::extend(&mut weights, table.weights().iter().copied())?;
+        }
+        StencilTable::new(self.position.columns(), &offsets, indices, weights)
+    }
+
     /// Unit normals from positions of the mesh's vertices, three numbers each.
     ///
     /// Where there is no tangent plane, or both tangents are parallel as happens at collapsed

@@ -67,12 +67,13 @@ impl Rule {
         let placed = |&(v, weights): &Weighted| places.get(&v).map(|&place| (place, weights));
         let entries: Option<Vec<Weighted>> = weights.iter().map(placed).collect();
         let lost = || Error::new(ErrorKind::BrokenInvariant, "a limit depends on distant vertices");
-        let place = |corner: u32| walked.iter().position(|step| step.corners[0] == corner);
+        let seen: HashMap<u32, usize> =
+            walked.iter().enumerate().map(|(place, step)| (step.corners[0], place)).collect();
         let steps = walked.iter().map(|step| {
             let corner = step.corners[0];
             let twin = mesh.twin[corner as usize];
             Step {
-                across: if twin == NONE { None } else { place(twin) },
+                across: seen.get(&twin).copied(),
                 from: step.from,
                 sides: sides(mesh, corner),
                 open: (step.distance < reach).then(|| mesh.twin[corner as usize] == NONE),

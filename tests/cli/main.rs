@@ -11,6 +11,7 @@ mod cases;
 mod creases;
 mod holes;
 mod hostile;
+mod limits;
 mod masks;
 mod pictures;
 mod places;

@@ -256,3 +256,15 @@ fn step(of: &Hierarchy, level: u32, interpolation: Interpolation, values: &[f64]
     linear.refine(&Context::serial(), 1, values, 3, &mut out).expect("small");
     out
 }
+
+/// Large enough that arrays are asked for by huge pages elsewhere.
+#[test]
+fn copied_rows_take_no_more_than_their_entries() {
+    let mesh = grid(40, 40, |_| false, (&[], &[]));
+    let context = Context::serial();
+    let hierarchy = Hierarchy::new(&context, mesh, Scheme::catmull_clark(), 2).unwrap();
+    let table: StencilTable<f64> = hierarchy.stencils(&context, &StencilTask::level(3)).unwrap();
+    let bytes = 4 * (table.rows() as u64 + 1) + 12 * table.entries() as u64;
+    assert!(bytes > 4 << 20, "{bytes}");
+    assert_eq!(table.bytes(), bytes);
+}

@@ -505,6 +505,57 @@ static void check_wrong_calls(const fixture *with, const carvel_stencils *table)
     free(out);
 }
 
+/* Limits: weights of positions sum to one, those of tangents to nothing. */
+static void check_limits(const fixture *with)
+{
+    carvel_stencils_desc desc = description(0, LEVELS, CARVEL_PRECISION_F64);
+    carvel_stencils *level = stencils_of(NULL, with->hierarchy, &desc), *limits = NULL, *it = NULL;
+    carvel_stencils *all = NULL;
+    carvel_stencil_counts counts;
+    uint64_t *offsets, row, entry;
+    uint32_t *indices;
+    double *weights;
+    CHECK_OK(carvel_stencils_create_limits(with->context, with->hierarchy, LEVELS,
+                                           CARVEL_PRECISION_F64, &limits, failure));
+    counts = sizes_of(limits);
+    CHECK_UINT(3 * with->refined, counts.rows);
+    CHECK_UINT(with->refined, counts.columns);
+    offsets = TAKE(uint64_t, counts.rows + 1);
+    indices = TAKE(uint32_t, counts.entries);
+    weights = TAKE(double, counts.entries);
+    CHECK_OK(carvel_stencils_csr_f64(limits, offsets, counts.rows + 1, indices, weights,
+                                     counts.entries, failure));
+    for (row = 0; row < counts.rows; row++) {
+        double sum = 0;
+        for (entry = offsets[row]; entry < offsets[row + 1]; entry++)
+            sum += weights[entry];
+        CHECK(fabs(sum - (row < with->refined)) < ROUNDING);
+        CHECK(offsets[row] < offsets[row + 1]);
+    }
+    CHECK_OK(carvel_stencils_product(NULL, level, limits, &all, failure));
+    CHECK_UINT(with->control, sizes_of(all).columns);
+    REFUSE(NULL_POINTER,
+           carvel_stencils_create_limits(NULL, NULL, 0, CARVEL_PRECISION_F64, &it, failure));
+    REFUSE(NULL_POINTER, carvel_stencils_create_limits(NULL, with->hierarchy, 0,
+                                                       CARVEL_PRECISION_F64, NULL, failure));
+    REFUSE(PARAMETER_OUT_OF_RANGE,
+           carvel_stencils_create_limits(NULL, with->hierarchy, LEVELS + 1, CARVEL_PRECISION_F64,
+                                         &it, failure));
+    REFUSE(PARAMETER_OUT_OF_RANGE,
+           carvel_stencils_create_limits(NULL, with->hierarchy, 0, 7, &it, failure));
+    carvel_context_cancel(with->context);
+    REFUSE(CANCELLED, carvel_stencils_create_limits(with->context, with->hierarchy, 0,
+                                                    CARVEL_PRECISION_F32, &it, failure));
+    carvel_context_reset(with->context);
+    CHECK(it == NULL);
+    carvel_stencils_destroy(level);
+    carvel_stencils_destroy(limits);
+    carvel_stencils_destroy(all);
+    free(offsets);
+    free(indices);
+    free(weights);
+}
+
 static void check_precisions(const fixture *with, const carvel_stencils *table)
 {
     carvel_stencils_desc desc = description(0, 1, CARVEL_PRECISION_F32);
@@ -551,6 +602,7 @@ int main(int count, char **arguments)
         check_update(&with, table);
         check_csr(&with, table);
         check_steps(&with);
+        check_limits(&with);
         check_selection(&with);
         check_varying(&with, i == 0);
         check_precisions(&with, table);

@@ -43,6 +43,12 @@ int main()
     both.apply(control, out);
     CHECK(near(out, expected));
 
+    const carvel::Stencils limits = carvel::Stencils::limits(hierarchy, 2, CARVEL_PRECISION_F64);
+    CHECK(limits.counts().rows == expected.size() && limits.counts().columns == counts.rows);
+    std::vector<double> surface(3 * expected.size());
+    limits.apply(expected, surface);
+    CHECK(surface[0] != expected[0]);
+
     const carvel::Csr<float> csr = whole.csr<float>();
     CHECK(csr.offsets.size() == counts.rows + 1 && csr.offsets.back() == counts.entries);
     std::vector<double> back(control.size()), again(control.size());
