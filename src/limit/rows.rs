@@ -210,7 +210,15 @@ fn follow(hierarchy: &Hierarchy, level: u32, faces: &mut [u32]) -> Result<()> {
     for (face, origin) in (0..).zip(&origins) {
         match *origin {
             FaceOrigin::Vertex(v) if level == 1 => faces[v as usize] = face,
-            FaceOrigin::Face(of) => children[of as usize] = face,
+            FaceOrigin::Edge(corner) if level == 1 => {
+                anchored_ends(parent, corner).for_each(|v| faces[v as usize] = face);
+            }
+            FaceOrigin::Face(of) => {
+                children[of as usize] = face;
+                if level == 1 {
+                    anchored_corners(parent, of).for_each(|v| faces[v as usize] = face);
+                }
+            }
             _ => {}
         }
     }
@@ -224,6 +232,21 @@ fn follow(hierarchy: &Hierarchy, level: u32, faces: &mut [u32]) -> Result<()> {
         between_two(hierarchy, &origins, faces)?;
     }
     Ok(())
+}
+
+/// The ends of an edge on the boundary of an anchored mesh. A step lays no face in their place,
+/// but one on the edge, with the vertex's place in the middle of its boundary edge.
+fn anchored_ends(mesh: &Mesh, corner: u32) -> impl Iterator<Item = u32> {
+    let ends = [corner, mesh.next(corner)].map(|c| mesh.vert[c as usize]);
+    ends.into_iter().filter(|&v| mesh.is_anchored() && mesh.on_rim(v))
+}
+
+/// The vertices of a face of an anchored mesh that have no other: they stay where they are, and
+/// the face's children shrink towards them.
+fn anchored_corners(mesh: &Mesh, face: u32) -> impl Iterator<Item = u32> {
+    let corners = mesh.layout.face(face).filter(|_| mesh.is_anchored());
+    let open = |corner: u32| mesh.twin[corner as usize] == NONE;
+    corners.filter(move |&c| open(c) && open(mesh.prev(c))).map(|c| mesh.vert[c as usize])
 }
 
 /// The faces of the second level on the edges of the first that vertices of two faces become.

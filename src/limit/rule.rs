@@ -6,7 +6,7 @@ use super::weights::{Weighted, at_centre};
 use super::{Feature, LocalMatrix};
 use crate::base::{Error, ErrorKind, NONE, Result};
 use crate::mesh::Mesh;
-use crate::scheme::Scheme;
+use crate::scheme::{Scheme, SplitKind};
 use std::collections::HashMap;
 
 /// The limit at the centre of a feature: a walk from the corners in the middle, which tells
@@ -27,7 +27,7 @@ struct Step {
     from: Option<(usize, bool)>,
     /// Sides of the face.
     sides: u32,
-    /// Whether the edge is on the boundary, where the walk looks across edges.
+    /// Whether the edge is on the boundary, where that matters.
     open: Option<bool>,
     /// The step across the edge, if that is one: around a vertex the way closes.
     across: Option<usize>,
@@ -69,6 +69,8 @@ impl Rule {
         let lost = || Error::new(ErrorKind::BrokenInvariant, "a limit depends on distant vertices");
         let seen: HashMap<u32, usize> =
             walked.iter().enumerate().map(|(place, step)| (step.corners[0], place)).collect();
+        // At a vertex without passes the boundary is one of its sides, such as a crease.
+        let minds_edges = reach > 0 || scheme.split() == SplitKind::Corner;
         let steps = walked.iter().map(|step| {
             let corner = step.corners[0];
             let twin = mesh.twin[corner as usize];
@@ -76,7 +78,7 @@ impl Rule {
                 across: seen.get(&twin).copied(),
                 from: step.from,
                 sides: sides(mesh, corner),
-                open: (step.distance < reach).then(|| mesh.twin[corner as usize] == NONE),
+                open: minds_edges.then_some(twin == NONE),
             }
         });
         Ok(Self {

@@ -184,6 +184,33 @@ fn refinement_goes_to_the_limits() {
     }
 }
 
+/// Limits on a level are those on the level after: of anchored vertices on the boundary, which
+/// have no faces in their places, by the curve that the boundary is.
+#[test]
+fn limits_on_anchored_meshes() {
+    for scheme in [three_point(), Scheme::doo_sabin(), three_point().with_boundary(Boundary::Edge)]
+    {
+        for of in [bases::grid(3, 2), bases::half_fan(4), bases::frame(), bases::pyramid(5)] {
+            let positions = xyz(&of);
+            let levels = Hierarchy::new(&Context::serial(), kernel::mesh(&of), scheme.clone(), 5);
+            let levels = levels.unwrap();
+            let first = refined(&levels, 1, &positions);
+            let mesh = levels.shared_mesh(1).unwrap();
+            let [limit, ..] = limits(&mesh, &scheme, &first);
+            let deep = refined(&levels, 5, &positions);
+            for v in 0..first.len() / 3 {
+                let to = |p: [f64; 3]| apart(at(&limit, v), p);
+                let near = (0..deep.len() / 3).map(|w| to(at(&deep, w))).fold(f64::MAX, f64::min);
+                let far = to(at(&first, v));
+                assert!(near < 0.04, "{scheme:?}: vertex {v}: {near}");
+                if mesh.is_boundary_vertex(v) && mesh.valence(v) == 1 {
+                    assert!(far < 1e-14, "{scheme:?}: corner {v}");
+                }
+            }
+        }
+    }
+}
+
 #[test]
 fn closed_forms_of_the_field() {
     let of = bases::torus(6, 6);
@@ -210,6 +237,26 @@ fn closed_forms_of_the_field() {
     close(weights(&three_point()), tensor(&paper));
     let quartic = Scheme::three_point(Fraction::new(1, 16).unwrap()).unwrap();
     close(weights(&quartic), tensor(&[1.0, 76.0, 230.0, 76.0, 1.0].map(|w| w / 384.0)));
+}
+
+/// Along the boundary a dual surface is the curve of the boundary polygon.
+#[test]
+fn the_boundary_is_a_curve() {
+    let levels =
+        Hierarchy::new(&Context::serial(), kernel::mesh(&bases::grid(6, 6)), three_point(), 1);
+    let mesh = levels.unwrap().shared_mesh(1).unwrap();
+    let limits = Limits::<f64>::new(&Context::serial(), &mesh, &three_point()).unwrap();
+    let curve = [1.0, 1.0, 252.0, 252.0, 1030.0].map(|w| w / 1536.0);
+    let boundary = |v: &usize| mesh.is_boundary_vertex(*v) && mesh.valence(*v) == 2;
+    let regular = (0..mesh.vertices()).filter(boundary).filter(|&v| {
+        let (vertices, weights) = limits.position().row(v);
+        assert!(vertices.iter().all(|&w| mesh.is_boundary_vertex(w as usize)));
+        let mut weights = weights.to_vec();
+        weights.sort_by(f64::total_cmp);
+        weights.len() == 5 && weights.iter().zip(curve).all(|(a, b)| (a - b).abs() < 1e-14)
+    });
+    // Each side has twelve such vertices; beside the corners the polygon is continued.
+    assert_eq!(regular.count(), 4 * (12 - 4));
 }
 
 fn dot(a: [f64; 3], b: [f64; 3]) -> f64 {

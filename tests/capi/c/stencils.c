@@ -508,18 +508,18 @@ static void check_wrong_calls(const fixture *with, const carvel_stencils *table)
 /* Limits: weights of positions sum to one, those of tangents to nothing. */
 static void check_limits(const fixture *with)
 {
-    carvel_stencils_desc desc = description(0, LEVELS, CARVEL_PRECISION_F64);
+    carvel_stencils_desc desc = description(0, LEVELS - 1, CARVEL_PRECISION_F64);
     carvel_stencils *level = stencils_of(NULL, with->hierarchy, &desc), *limits = NULL, *it = NULL;
     carvel_stencils *all = NULL;
     carvel_stencil_counts counts;
-    uint64_t *offsets, row, entry;
+    uint64_t vertices = sizes_of(level).rows, *offsets, row, entry;
     uint32_t *indices;
     double *weights;
-    CHECK_OK(carvel_stencils_create_limits(with->context, with->hierarchy, LEVELS,
+    CHECK_OK(carvel_stencils_create_limits(with->context, with->hierarchy, LEVELS - 1,
                                            CARVEL_PRECISION_F64, &limits, failure));
     counts = sizes_of(limits);
-    CHECK_UINT(3 * with->refined, counts.rows);
-    CHECK_UINT(with->refined, counts.columns);
+    CHECK_UINT(3 * vertices, counts.rows);
+    CHECK_UINT(vertices, counts.columns);
     offsets = TAKE(uint64_t, counts.rows + 1);
     indices = TAKE(uint32_t, counts.entries);
     weights = TAKE(double, counts.entries);
@@ -529,7 +529,7 @@ static void check_limits(const fixture *with)
         double sum = 0;
         for (entry = offsets[row]; entry < offsets[row + 1]; entry++)
             sum += weights[entry];
-        CHECK(fabs(sum - (row < with->refined)) < ROUNDING);
+        CHECK(fabs(sum - (row < vertices)) < ROUNDING);
         CHECK(offsets[row] < offsets[row + 1]);
     }
     CHECK_OK(carvel_stencils_product(NULL, level, limits, &all, failure));
@@ -539,7 +539,7 @@ static void check_limits(const fixture *with)
     REFUSE(NULL_POINTER, carvel_stencils_create_limits(NULL, with->hierarchy, 0,
                                                        CARVEL_PRECISION_F64, NULL, failure));
     REFUSE(PARAMETER_OUT_OF_RANGE,
-           carvel_stencils_create_limits(NULL, with->hierarchy, LEVELS + 1, CARVEL_PRECISION_F64,
+           carvel_stencils_create_limits(NULL, with->hierarchy, LEVELS, CARVEL_PRECISION_F64,
                                          &it, failure));
     REFUSE(PARAMETER_OUT_OF_RANGE,
            carvel_stencils_create_limits(NULL, with->hierarchy, 0, 7, &it, failure));
