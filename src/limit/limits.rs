@@ -1,10 +1,10 @@
 //! Limit positions, tangents and normals of the vertices of a level.
 
 use super::rows::{Rows, rows};
-use crate::base::{Context, Error, ErrorKind, Result, Scalar, memory};
+use crate::base::{Context, Element, Error, ErrorKind, Result, Scalar, memory};
 use crate::mesh::Mesh;
 use crate::scheme::Scheme;
-use crate::sparse::{Records, RecordsMut, StencilTable};
+use crate::sparse::StencilTable;
 use std::sync::Arc;
 
 /// Where the vertices of a mesh go in the limit, and two tangents of the surface there, as
@@ -41,8 +41,9 @@ impl<T: Scalar> Limits<T> {
     ///
     /// Weights are computed in double precision from the scheme's own rows and rounded once.
     /// Vertices near a single feature use its rule; others are followed to later levels, in a
-    /// part of the mesh around them under primal schemes. Time and memory are those of one
-    /// level more for a dual scheme, of a walk of two rings for others.
+    /// part of the mesh around them under primal schemes. A dual scheme takes the time and memory
+    /// of one level more, and of two where features are near each other; a primal one that of a
+    /// walk around each vertex, and beside semi-sharp creases of as many levels as they last.
     ///
     /// # Errors
     /// As [`Scheme::check`]; [`ErrorKind::Unsupported`] for a mesh that is not manifold, for
@@ -103,20 +104,41 @@ impl<T: Scalar> Limits<T> {
             let message = format!("{} numbers for {} normals", out.len(), self.mesh.vertices());
             return Err(Error::new(ErrorKind::LengthMismatch, message));
         }
-        let mut pair = [memory::zeroed(out.len())?, memory::zeroed(out.len())?];
-        for (table, tangents) in self.tangents.iter().zip(&mut pair) {
-            let out = RecordsMut::packed(tangents, 3);
-            table.apply(context, Records::packed(positions, 3), out)?;
+        if positions.len() != out.len() {
+            let message = format!("{} numbers for {} positions", positions.len(), out.len() / 3);
+            return Err(Error::new(ErrorKind::LengthMismatch, message));
         }
-        let [first, second] = &pair;
+        if let Some(at) = positions.iter().position(|x| !x.to_f64().is_finite()) {
+            let message = format!("the position of vertex {} is not finite", at / 3);
+            return Err(Error::new(ErrorKind::NotFinite, message)
+                .with_elements([Element::Vertex(at as u64 / 3)]));
+        }
         context.fill(out, 3, |start, part| {
             for (v, normal) in (start..).zip(part.as_chunks_mut::<3>().0) {
-                let at = |list: &[T]| [0, 1, 2].map(|k| list[3 * v + k].to_f64());
-                let tangents = [at(first), at(second)];
-                let unit = unit_normal(tangents).unwrap_or_else(|| self.of_faces(positions, v));
-                *normal = unit.map(T::from_f64);
+                let tangents = [0, 1].map(|k| self.tangent(k, positions, v));
+                let unit = match tangents {
+                    [Some(first), Some(second)] => unit_normal::<T>([first, second]),
+                    _ => None,
+                };
+                *normal = unit.unwrap_or_else(|| self.of_faces(positions, v)).map(T::from_f64);
             }
         })
+    }
+
+    /// A tangent at a vertex, if it is more than what rounding makes of equal points.
+    fn tangent(&self, k: usize, positions: &[T], v: usize) -> Option<[f64; 3]> {
+        let (vertices, weights) = self.tangents[k].row(v);
+        let point = |v: u32| [0, 1, 2].map(|k| positions[3 * v as usize + k].to_f64());
+        // Weights sum to zero but for rounding: sums of differences stay small where points do.
+        let origin = point(*vertices.first()?);
+        let (mut sum, mut size) = ([0.0; 3], 0.0);
+        for (&v, weight) in vertices.iter().zip(weights) {
+            let weight = weight.to_f64();
+            let from = difference(point(v), origin);
+            sum.iter_mut().zip(from).for_each(|(sum, x)| *sum += weight * x);
+            size += weight.abs() * length(from);
+        }
+        (length(sum) > ROUNDING * epsilon::<T>() * size).then_some(sum)
     }
 
     /// The normal of the polygons around a vertex.
@@ -140,13 +162,19 @@ impl<T: Scalar> Limits<T> {
     }
 }
 
+/// Rounding errors of sums of some tens of terms, in units of the last place.
+const ROUNDING: f64 = 64.0;
+
+/// What 1 is rounded by.
+fn epsilon<T: Scalar>() -> f64 {
+    if T::BYTES == 4 { f64::from(f32::EPSILON) } else { f64::EPSILON }
+}
+
 /// The unit normal of two tangents that are not parallel.
-fn unit_normal(tangents: [[f64; 3]; 2]) -> Option<[f64; 3]> {
-    /// Sines of angles that are rounding errors.
-    const PARALLEL: f64 = 1e-10;
+fn unit_normal<T: Scalar>(tangents: [[f64; 3]; 2]) -> Option<[f64; 3]> {
     let [first, second] = [scaled(tangents[0])?, scaled(tangents[1])?];
     let normal = cross(first, second);
-    (length(normal) > PARALLEL).then(|| scaled(normal)).flatten()
+    (length(normal) > ROUNDING * epsilon::<T>()).then(|| scaled(normal)).flatten()
 }
 
 /// A vector of length 1, whatever its length was.

@@ -3,7 +3,7 @@
 
 use super::Feature;
 use super::neighbourhood::{Name, Neighbourhood};
-use crate::base::{Context, Error, ErrorKind, NONE, Result, Weight};
+use crate::base::{Context, Error, ErrorKind, NONE, Result, Weight, memory};
 use crate::hierarchy::Hierarchy;
 use crate::mesh::Mesh;
 use crate::refine::{EdgeNumbers, FaceOrigin, Pieces, VertexOrigin};
@@ -71,8 +71,10 @@ impl Model {
 
     pub(super) fn neighbourhood(&self, reach: u32) -> Neighbourhood {
         let meshes = [self.mesh(), self.hierarchy.mesh(STATIONARY + 1)];
-        // Rows of those farthest out are made of others that lie hardly farther.
-        Neighbourhood::new(meshes, &self.middle, self.symmetric, reach + 4 + self.passes)
+        // Rows of those farthest out are made of others that lie hardly farther; those of many
+        // passes of as many rings, whose diagonals are two edges away each.
+        let edges = (reach + 4 + self.passes).max(reach + 2 * self.passes);
+        Neighbourhood::new(meshes, &self.middle, self.symmetric, edges)
     }
 
     /// Calls `row` with the composed row of each of some vertices of the child mesh.
@@ -99,16 +101,16 @@ fn face_corners(hierarchy: &Hierarchy, feature: Feature) -> Result<Vec<u32>> {
         Error::new(ErrorKind::Unsupported, message)
     })?;
     let mesh = hierarchy.mesh(STATIONARY);
-    Ok(corners_in_order(mesh, face as u32))
+    corners_in_order(mesh, face as u32)
 }
 
 /// The corners of a face; of one at the boundary from the first boundary edge on.
-pub(super) fn corners_in_order(mesh: &Mesh, face: u32) -> Vec<u32> {
-    let mut corners: Vec<u32> = mesh.layout.face(face).collect();
+pub(super) fn corners_in_order(mesh: &Mesh, face: u32) -> Result<Vec<u32>> {
+    let mut corners = memory::collect(mesh.layout.face(face))?;
     let open = |corner: u32| mesh.twin[corner as usize] == NONE;
     let first = corners.iter().position(|&c| open(c) && !open(mesh.prev(c)));
     corners.rotate_left(first.unwrap_or(0));
-    corners
+    Ok(corners)
 }
 
 /// The child corners that correspond to the corners in the middle.

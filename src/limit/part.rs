@@ -1,10 +1,13 @@
 //! The faces near some vertices, as a mesh of their own.
 
 use crate::base::{Context, Crease, NONE, Result, SharpVertex, memory};
-use crate::mesh::{BuildOptions, Mesh, build};
+use crate::mesh::{BuildOptions, Mesh, NonManifold, build};
 
-/// Rings of faces that decide the limits in the middle, cut edges being no boundary.
-const RINGS: u32 = 3;
+/// Rings of faces that decide the limits in the middle, cut edges being no boundary: each step
+/// asks for as many rings more as there are passes, and halves their width.
+fn rings(passes: u32) -> u32 {
+    passes.max(3)
+}
 
 /// A part of a mesh.
 pub(super) struct Part {
@@ -16,8 +19,8 @@ pub(super) struct Part {
 }
 
 impl Part {
-    /// The faces up to three rings around vertices, with their sharp features.
-    pub(super) fn new(mesh: &Mesh, wanted: &[u32]) -> Result<Self> {
+    /// The faces up to some rings around vertices, with their sharp features.
+    pub(super) fn new(mesh: &Mesh, wanted: &[u32], passes: u32) -> Result<Self> {
         let mut taken = memory::filled(false, mesh.faces())?;
         let mut reached = memory::filled(false, mesh.vertices())?;
         let mut front = memory::copied(wanted)?;
@@ -25,7 +28,7 @@ impl Part {
         for &v in wanted {
             reached[v as usize] = true;
         }
-        for _ in 0..RINGS {
+        for _ in 0..rings(passes) {
             let mut next = Vec::new();
             for &v in &front {
                 for face in mesh.fans(v).map(|corner| mesh.layout.face_of(corner)) {
@@ -43,10 +46,10 @@ impl Part {
             front = next;
         }
         faces.sort_unstable();
-        Self::of_faces(mesh, &faces, wanted)
+        Self::of_faces(mesh, &faces, &taken, wanted)
     }
 
-    fn of_faces(mesh: &Mesh, faces: &[u32], wanted: &[u32]) -> Result<Self> {
+    fn of_faces(mesh: &Mesh, faces: &[u32], taken: &[bool], wanted: &[u32]) -> Result<Self> {
         let mut names = memory::filled(NONE, mesh.vertices())?;
         let mut vertices = Vec::new();
         let (mut sizes, mut indices) = (memory::reserved(faces.len())?, Vec::new());
@@ -62,11 +65,14 @@ impl Part {
             }
         }
         let name = |v: u32| Some(names[v as usize]).filter(|&name| name != NONE);
-        let crease = |crease: Crease| {
-            let [a, b] = crease.vertices;
-            Some(Crease { vertices: [name(a)?, name(b)?], ..crease })
+        // Of the edges whose ends are there only those of the part's own faces.
+        let within = |corner: u32| taken[mesh.layout.face_of(corner) as usize];
+        let own = |c: u32| within(c) || within(mesh.twin[c as usize]);
+        let crease = |&(c, sharpness): &(u32, f32)| {
+            let ends = [c, mesh.next(c)].map(|c| names[mesh.vert[c as usize] as usize]);
+            own(c).then_some(Crease { vertices: ends, sharpness })
         };
-        let edges = memory::collect(mesh.creases().filter_map(crease))?;
+        let edges = memory::collect(mesh.sharpness.edges.iter().filter_map(crease))?;
         let sharp = |sharp: SharpVertex| Some(SharpVertex { vertex: name(sharp.vertex)?, ..sharp });
         let points = memory::collect(mesh.sharp_vertices().filter_map(sharp))?;
         let tags = memory::collect(mesh.corner_tags().iter().filter_map(|&v| name(v)))?;
@@ -74,10 +80,15 @@ impl Part {
             creases: &edges,
             sharp_vertices: &points,
             corner_tags: &tags,
+            // Far from what is wanted a part may touch itself.
+            non_manifold: NonManifold::Cut,
             ..BuildOptions::default()
         };
         let context = Context::serial();
         let built = build(&context, vertices.len(), &sizes, &indices, &options)?;
+        if let Some(source) = &built.vertex_source {
+            vertices = memory::collect(source.iter().map(|&v| vertices[v as usize]))?;
+        }
         let wanted = memory::collect(wanted.iter().filter_map(|&v| name(v)))?;
         Ok(Self { mesh: built.mesh, wanted, vertices })
     }

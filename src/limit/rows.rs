@@ -15,8 +15,6 @@ use std::sync::Arc;
 /// Levels after which the neighbourhood of a vertex must be that of one feature: sharpness
 /// lasts for ten, and two more separate what is not sharp.
 const DEEPEST: u32 = 12;
-/// The same for dual schemes, which have no sharpness that is used up.
-const DEEPEST_DUAL: u32 = 4;
 /// Vertices between two looks at whether to go on.
 const CANCEL_EVERY: usize = 1 << 12;
 
@@ -88,7 +86,7 @@ pub(super) fn rows(context: &Context, mesh: &Arc<Mesh>, scheme: &Scheme) -> Resu
     }
     context.report(0.0)?;
     let mut made = Loose::default();
-    let mut centres = Centres::new(scheme);
+    let mut centres = Centres::new(context, scheme);
     let rest = match scheme.split() {
         SplitKind::Corner => dual(context, mesh, scheme, &mut centres, &mut made)?,
         _ => primal(context, mesh, scheme, &mut centres, &mut made)?,
@@ -104,12 +102,25 @@ pub(super) fn rows(context: &Context, mesh: &Arc<Mesh>, scheme: &Scheme) -> Resu
 fn later(mesh: &Mesh, v: u32, scheme: &Scheme) -> Error {
     let dual = scheme.split() == SplitKind::Corner;
     let ends = dual && mesh.on_rim(v) && scheme.boundary() == Boundary::None;
-    let message = match ends {
-        true => "the surface ends inside the mesh and has no point there (boundary none)",
-        false => "its neighbourhood is not regular after some levels, or stays sharp too long",
+    let message = if ends {
+        "the surface ends inside the mesh and has no point there (boundary none)"
+    } else {
+        "its neighbourhood is not regular after some levels, or stays sharp too long"
     };
+    refused(v, message)
+}
+
+fn refused(v: u32, message: &str) -> Error {
     Error::new(ErrorKind::Unsupported, format!("vertex {v} has no limit: {message}"))
         .with_elements([Element::Vertex(v.into())])
+}
+
+/// Names the vertex whose feature has no rule.
+fn at(v: u32) -> impl Fn(Error) -> Error {
+    move |error| match error.kind() {
+        ErrorKind::ParameterOutOfRange | ErrorKind::Unsupported => refused(v, &error.to_string()),
+        _ => error,
+    }
 }
 
 /// Vertices on the mesh itself, then those that are left on submeshes around them.
@@ -117,7 +128,7 @@ fn primal(
     context: &Context,
     mesh: &Arc<Mesh>,
     scheme: &Scheme,
-    centres: &mut Centres,
+    centres: &mut Centres<'_>,
     made: &mut Loose,
 ) -> Result<Vec<u32>> {
     let (mut row, mut rest) = (Vec::new(), Vec::new());
@@ -125,7 +136,7 @@ fn primal(
         if (v as usize).is_multiple_of(CANCEL_EVERY) {
             context.report(0.5 * f64::from(v) / mesh.vertices() as f64)?;
         }
-        match centres.vertex(mesh, v, &mut row)? {
+        match centres.vertex(mesh, v, &mut row).map_err(at(v))? {
             Found::Limit => made.push(v, &row)?,
             Found::Later => memory::extend(&mut rest, [v])?,
         }
@@ -134,13 +145,13 @@ fn primal(
         if rest.is_empty() {
             break;
         }
-        let part = Part::new(mesh, &rest)?;
+        let part = Part::new(mesh, &rest, scheme.passes().len() as u32)?;
         let hierarchy = Hierarchy::new(context, part.mesh, scheme.clone(), level)?;
         let fine = hierarchy.mesh(level);
         let mut found = Loose::default();
         let mut still = Vec::new();
         for (&v, &inner) in rest.iter().zip(&part.wanted) {
-            match centres.vertex(fine, inner, &mut row)? {
+            match centres.vertex(fine, inner, &mut row).map_err(at(v))? {
                 Found::Limit => found.push(v, &row)?,
                 Found::Later => memory::extend(&mut still, [v])?,
             }
@@ -156,7 +167,7 @@ fn dual(
     context: &Context,
     mesh: &Arc<Mesh>,
     scheme: &Scheme,
-    centres: &mut Centres,
+    centres: &mut Centres<'_>,
     made: &mut Loose,
 ) -> Result<Vec<u32>> {
     let mut row = Vec::new();
@@ -170,7 +181,10 @@ fn dual(
     let mut hierarchy = Hierarchy::new(context, Arc::clone(mesh), scheme.clone(), levels)?;
     // The face at the level where a vertex's limit lies in the middle, or `NONE`.
     let mut faces = memory::filled(NONE, mesh.vertices())?;
-    for level in 1..=DEEPEST_DUAL {
+    // Features that are neighbours are 2ⁿ edges apart after n steps, and rules look twice as far
+    // as there are passes; beside vertices of two faces it takes two steps more.
+    let passes = scheme.passes().len() as u32;
+    for level in 1..=4 + (2 * passes).checked_ilog2().unwrap_or(0) {
         if rest.is_empty() {
             break;
         }
@@ -189,7 +203,7 @@ fn dual(
             let fine = hierarchy.mesh(level);
             match face {
                 NONE => memory::extend(&mut still, [v])?,
-                _ => match centres.face(fine, face, &mut row)? {
+                _ => match centres.face(fine, face, &mut row).map_err(at(v))? {
                     Found::Limit => found.push(v, &row)?,
                     Found::Later => memory::extend(&mut still, [v])?,
                 },

@@ -4,7 +4,7 @@ use super::local::Model;
 use super::neighbourhood::walk;
 use super::weights::{Weighted, at_centre};
 use super::{Feature, LocalMatrix};
-use crate::base::{Error, ErrorKind, NONE, Result};
+use crate::base::{Context, Error, ErrorKind, NONE, Result};
 use crate::mesh::Mesh;
 use crate::scheme::{Scheme, SplitKind};
 use std::collections::HashMap;
@@ -44,11 +44,11 @@ impl Rule {
     ///
     /// # Errors
     /// As [`LocalMatrix::new`]; [`ErrorKind::Unsupported`] if points do not converge.
-    pub(super) fn new(scheme: &Scheme, feature: Feature) -> Result<Self> {
+    pub(super) fn new(context: &Context, scheme: &Scheme, feature: Feature) -> Result<Self> {
         let reach = reach(scheme);
         let model = Model::new(scheme, feature, reach.max(2))?;
         let matrix = LocalMatrix::of_model(&model, feature, None)?;
-        let weights = at_centre(&model, &matrix)?;
+        let weights = at_centre(context, &model, &matrix)?;
         let mesh = model.mesh();
         let mut middle: Vec<[u32; 2]> =
             model.middle.iter().map(|&[corner, _]| [corner; 2]).collect();

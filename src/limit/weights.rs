@@ -28,13 +28,17 @@ pub(super) type Weighted = (u32, [f64; 3]);
 ///
 /// # Errors
 /// [`ErrorKind::Unsupported`] if points do not converge.
-pub(super) fn at_centre(model: &Model, matrix: &LocalMatrix<f64>) -> Result<Vec<Weighted>> {
+pub(super) fn at_centre(
+    context: &Context,
+    model: &Model,
+    matrix: &LocalMatrix<f64>,
+) -> Result<Vec<Weighted>> {
     let rows = Rows::new(matrix);
-    let position = rows.position(matrix.feature())?;
+    let position = rows.position(context, matrix.feature())?;
     let plane = plane(model, matrix.feature())?;
     let plane: Vec<[f64; 2]> = rows.vertices.iter().map(|&v| plane[v as usize]).collect();
     let none = || [0; 2].map(|_| vec![0.0; position.len()]);
-    let pair = rows.tangents(&position, &plane).unwrap_or_else(none);
+    let pair = rows.tangents(context, &position, &plane)?.unwrap_or_else(none);
     let vectors = [&position, &pair[0], &pair[1]].map(|vector| without_rounding(vector));
     let weighted = |i: usize| (rows.vertices[i], [0, 1, 2].map(|k| vectors[k][i]));
     let some = |(_, weights): &Weighted| weights.iter().any(|&w| w != 0.0);
@@ -63,7 +67,9 @@ fn add(to: &mut [f64], factor: f64, other: &[f64]) {
 /// Scales to length 1; false if there is no length.
 fn normalise(vector: &mut [f64]) -> bool {
     let length = dot(vector, vector).sqrt();
-    vector.iter_mut().for_each(|x| *x /= length);
+    for x in vector.iter_mut() {
+        *x /= length;
+    }
     length > f64::MIN_POSITIVE && length.is_finite()
 }
 
@@ -105,13 +111,16 @@ impl Rows {
     }
 
     /// The left eigenvector of 1, of sum 1.
-    fn position(&self, feature: Feature) -> Result<Vec<f64>> {
+    fn position(&self, context: &Context, feature: Feature) -> Result<Vec<f64>> {
         let mut vector = vec![1.0 / self.rows.len() as f64; self.rows.len()];
         let mut moved = f64::INFINITY;
-        for _ in 0..ROUNDS {
+        for round in 0..ROUNDS {
+            look(context, round)?;
             let mut next = self.times(&vector);
             let sum: f64 = next.iter().sum();
-            next.iter_mut().for_each(|w| *w /= sum);
+            for weight in &mut next {
+                *weight /= sum;
+            }
             let before = moved;
             moved = change(&next, &vector);
             vector = next;
@@ -124,36 +133,51 @@ impl Rows {
     }
 
     /// Left vectors of the plane that points tend to, or nothing.
-    fn tangents(&self, position: &[f64], plane: &[[f64; 2]]) -> Option<[Vec<f64>; 2]> {
+    fn tangents(
+        &self,
+        context: &Context,
+        position: &[f64],
+        plane: &[[f64; 2]],
+    ) -> Result<Option<[Vec<f64>; 2]>> {
         let mut pair = [0, 1].map(|k| plane.iter().map(|p| p[k]).collect::<Vec<f64>>());
-        self.without_position(position, &mut pair)?;
+        if without_position(position, &mut pair).is_none() {
+            return Ok(None);
+        }
         let mut moved = f64::INFINITY;
-        for _ in 0..ROUNDS {
+        for round in 0..ROUNDS {
+            look(context, round)?;
             let mut next = pair.each_ref().map(|vector| self.times(vector));
-            self.without_position(position, &mut next)?;
+            if without_position(position, &mut next).is_none() {
+                break;
+            }
             let before = moved;
             moved = change(&next[0], &pair[0]).max(change(&next[1], &pair[1]));
             pair = next;
             if moved <= SETTLED || (moved <= NEARLY && moved >= before) {
-                return over(&pair, plane);
+                return Ok(over(&pair, plane));
             }
         }
-        None
+        Ok(None)
     }
+}
 
-    /// Takes the eigenvector of 1 out of two vectors and makes them orthonormal.
-    fn without_position(&self, position: &[f64], pair: &mut [Vec<f64>; 2]) -> Option<()> {
-        for vector in pair.iter_mut() {
-            // The right eigenvector of 1 has ones only.
-            let sum: f64 = vector.iter().sum();
-            add(vector, -sum, position);
-        }
-        let [first, second] = pair;
-        let whole = normalise(first);
-        let shared = dot(first, second);
-        add(second, -shared, first);
-        (normalise(second) && whole).then_some(())
+/// Takes the eigenvector of 1 out of two vectors and makes them orthonormal.
+fn without_position(position: &[f64], pair: &mut [Vec<f64>; 2]) -> Option<()> {
+    for vector in pair.iter_mut() {
+        // The right eigenvector of 1 has ones only.
+        let sum: f64 = vector.iter().sum();
+        add(vector, -sum, position);
     }
+    let [first, second] = pair;
+    let whole = normalise(first);
+    let shared = dot(first, second);
+    add(second, -shared, first);
+    (normalise(second) && whole).then_some(())
+}
+
+/// Asks now and then whether to go on.
+fn look(context: &Context, round: usize) -> Result<()> {
+    if round.is_multiple_of(256) { context.check_cancelled() } else { Ok(()) }
 }
 
 /// The vectors of the same plane whose values on the plane's own points are its axes.

@@ -117,6 +117,59 @@ fn limits_on_creases_do_not_depend_on_the_level() {
     }
 }
 
+fn tagged(of: &Poly<f64>, creases: &[Crease], sharp_vertices: &[SharpVertex]) -> Mesh {
+    let options = BuildOptions { creases, sharp_vertices, ..Default::default() };
+    kernel::Soup::new(of.positions.len(), &of.faces).build(&options).unwrap().mesh
+}
+
+/// All edges of one face sharp for ever: at each of its vertices one side is that face alone.
+#[test]
+fn creases_around_a_face() {
+    let of = bases::cube();
+    let face = &of.faces[0];
+    let edge =
+        |i: usize| Crease { vertices: [face[i] as u32, face[(i + 1) % 4] as u32], sharpness: 10.0 };
+    let creases: Vec<Crease> = (0..4).map(edge).collect();
+    assert_stays(&Scheme::catmull_clark(), tagged(&of, &creases, &[]), &xyz(&of));
+}
+
+/// Parts of the mesh that touch themselves, and creases whose ends are in them but not they.
+#[test]
+fn sharp_vertices_apart() {
+    let sharp = |vertex| SharpVertex { vertex, sharpness: 2.5 };
+    let of = bases::grid(20, 20);
+    let mesh = tagged(&of, &[], &[sharp(21 * 5 + 5), sharp(21 * 8 + 8)]);
+    assert_stays(&Scheme::catmull_clark(), mesh, &xyz(&of));
+    let of = bases::torus(7, 7);
+    let plain = kernel::mesh(&of);
+    let near = |v: u32, far: &[u32]| {
+        let beside = |e: &[u32; 2]| e.contains(&v);
+        let others = plain.edge_vertices().filter(beside).map(|[a, b]| a + b - v);
+        others.filter(|w| !far.contains(w)).collect::<Vec<u32>>()
+    };
+    let mut rings = vec![vec![0]];
+    for _ in 0..3 {
+        let known: Vec<u32> = rings.concat();
+        let mut next: Vec<u32> = known.iter().flat_map(|&v| near(v, &known)).collect();
+        next.sort_unstable();
+        next.dedup();
+        rings.push(next);
+    }
+    for vertices in plain.edge_vertices().filter(|ends| ends.iter().all(|v| rings[3].contains(v))) {
+        let crease = Crease { vertices, sharpness: 10.0 };
+        let mesh = tagged(&of, &[crease], &[SharpVertex { vertex: 0, sharpness: 1.5 }]);
+        assert_stays(&Scheme::catmull_clark(), mesh, &xyz(&of));
+    }
+}
+
+/// Many passes ask for many rings.
+#[test]
+fn limits_after_many_passes() {
+    let of = bases::grid(6, 6);
+    let passes = [Fraction::new(0, 1).unwrap(); 4];
+    assert_stays(&Scheme::primal(&passes).unwrap(), kernel::mesh(&of), &xyz(&of));
+}
+
 /// How far the limits are from the vertices, or the middles of the faces in their places,
 /// after each of some levels.
 fn distances(scheme: &Scheme, of: &Poly<f64>, levels: u32) -> Vec<f64> {
@@ -304,6 +357,38 @@ fn normals_of_a_plane() {
             let n = at(&normals, v);
             assert!(n[2].abs() > 0.999 || n == [0.0; 3], "{scheme:?} vertex {v}: {n:?}");
         }
+    }
+}
+
+/// A corner that goes round three quarters of a turn shows the same side as all others.
+#[test]
+fn normals_at_a_reflex_corner() {
+    let mut of = bases::grid(2, 2);
+    of.positions.iter_mut().for_each(|p| p[2] = 0.0);
+    of.faces.pop();
+    let inner = (0..9).find(|v| of.faces.iter().filter(|f| f.contains(v)).count() == 3).unwrap();
+    let used: Vec<usize> = (0..9).filter(|v| of.faces.iter().any(|f| f.contains(v))).collect();
+    let mesh = tagged(&of, &[], &[SharpVertex { vertex: inner as u32, sharpness: 10.0 }]);
+    let (mesh, positions) = (Arc::new(mesh), xyz(&of));
+    let limits = Limits::<f64>::new(&Context::serial(), &mesh, &Scheme::catmull_clark()).unwrap();
+    let mut normals = vec![0.0; positions.len()];
+    limits.normals(&Context::serial(), &positions, &mut normals).unwrap();
+    let side = normals[3 * inner + 2];
+    assert!(side.abs() > 0.999);
+    used.iter().for_each(|v| assert!(normals[3 * v + 2] * side > 0.999, "{v}"));
+}
+
+/// Where all points are one there is no normal, wherever that point is.
+#[test]
+fn collapsed_neighbourhoods_have_no_normal() {
+    let mut of = bases::grid(6, 6);
+    of.positions.iter_mut().for_each(|p| *p = [3.1, 0.7, 0.3]);
+    let (mesh, positions) = (Arc::new(kernel::mesh(&of)), xyz(&of));
+    for scheme in [three_point(), Scheme::catmull_clark()] {
+        let limits = Limits::<f64>::new(&Context::serial(), &mesh, &scheme).unwrap();
+        let mut normals = vec![1.0; positions.len()];
+        limits.normals(&Context::serial(), &positions, &mut normals).unwrap();
+        assert!(normals.iter().all(|&x| x == 0.0));
     }
 }
 
