@@ -535,6 +535,17 @@ enum carvel_loop_weights {
     CARVEL_LOOP_WEIGHTS_WARREN = 1
 };
 
+/* What THREE_POINT with w = 1/32 does around faces that are no quads. */
+enum carvel_extraordinary {
+    /* Split and pass, as everywhere: curvature grows or vanishes in the middle. */
+    CARVEL_EXTRAORDINARY_DEFAULT = 0,
+    /* Stencils that keep the curvature bounded and away from zero, around faces of 3
+     * to 32 sides, at interior vertices of valence 4 without a second such face. They
+     * count from the second step on: in the first one only on a mesh that is marked
+     * anchored. The step of a hierarchy is then one stage, see carvel_hierarchy_rows. */
+    CARVEL_EXTRAORDINARY_TUNED = 1
+};
+
 typedef struct carvel_scheme_desc {
     /* sizeof(carvel_scheme_desc). */
     uint32_t struct_size;
@@ -557,8 +568,8 @@ typedef struct carvel_scheme_desc {
     int32_t triangle_rule;
     /* LOOP only: one of enum carvel_loop_weights. */
     int32_t loop_weights;
-    /* Must be 0. */
-    int32_t reserved;
+    /* THREE_POINT only: one of enum carvel_extraordinary; TUNED for w = 1/32 alone. */
+    int32_t extraordinary;
 } carvel_scheme_desc;
 
 /* Sets defaults: Doo-Sabin, cosine, edge and corner, uniform creasing.
@@ -568,7 +579,8 @@ CARVEL_API carvel_status carvel_scheme_desc_init(carvel_scheme_desc *desc,
 
 /* Makes a scheme. A field that belongs to another family must have its default.
  * Errors: NULL_POINTER, MISALIGNED, STRUCT_SIZE, PARAMETER_OUT_OF_RANGE,
- * INVALID_NUMBER for a fraction. No cost to speak of. */
+ * INVALID_NUMBER for a fraction, UNSUPPORTED for TUNED with another w. No cost to speak
+ * of. */
 CARVEL_API carvel_status carvel_scheme_create(const carvel_scheme_desc *desc,
                                               carvel_scheme **out, carvel_error *error);
 
@@ -1396,7 +1408,8 @@ CARVEL_API carvel_status carvel_hierarchy_face_origins(const carvel_hierarchy *h
 
 /* The weights of one stage of a step as a sparse matrix in CSR form. Stage 0 is
  * the split, from the vertices of `level` - 1 to those of `level`; stage k is the
- * k-th smoothing pass, on the vertices of `level`: those of carvel_scheme_passes. Whole
+ * k-th smoothing pass, on the vertices of `level`: those of carvel_scheme_passes. With
+ * CARVEL_EXTRAORDINARY_TUNED stage 0 is the whole step and there is no other. Whole
  * steps and levels are carvel_stencils.
  *
  * offsets: `vertices` of the level + 1 entries.

@@ -868,6 +868,8 @@ struct SchemeDesc {
     carvel_triangle_rule triangle_rule = CARVEL_TRIANGLE_RULE_CATMULL_CLARK;
     /* LOOP only. */
     carvel_loop_weights loop_weights = CARVEL_LOOP_WEIGHTS_LOOP;
+    /* THREE_POINT only. */
+    carvel_extraordinary extraordinary = CARVEL_EXTRAORDINARY_DEFAULT;
 };
 
 class Mesh;
@@ -892,6 +894,7 @@ public:
         c.creasing = static_cast<std::int32_t>(desc.creasing);
         c.triangle_rule = static_cast<std::int32_t>(desc.triangle_rule);
         c.loop_weights = static_cast<std::int32_t>(desc.loop_weights);
+        c.extraordinary = static_cast<std::int32_t>(desc.extraordinary);
         carvel_scheme *out = nullptr;
         call.status = carvel_scheme_create(&c, &out, call.error());
         return call.result(Scheme(out));

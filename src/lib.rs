@@ -21,5 +21,7 @@ pub use base::{Context, Crease, Element, Error, ErrorKind, Fraction, Result, Sha
 pub use hierarchy::{Attribute, ChannelOutput, FaceVarying, Hierarchy, Interpolation, Output};
 pub use hierarchy::{Prediction, Refined, RefinedChannel, Refiner, StencilTask, Task};
 pub use mesh::{Channel, FaceVaryingMode, Mesh};
-pub use scheme::{Boundary, CornerRule, Creasing, LoopWeights, Scheme, SplitKind, TriangleRule};
+pub use scheme::{
+    Boundary, CornerRule, Creasing, Extraordinary, LoopWeights, Scheme, SplitKind, TriangleRule,
+};
 pub use sparse::{Records, RecordsMut, StencilTable, StoredTable};

@@ -8,7 +8,7 @@ use super::versioned::{init_function, read, versioned};
 use super::{carvel_error, carvel_mesh};
 use crate::base::Fraction;
 use crate::scheme::{
-    Boundary, CornerRule, Creasing, LoopWeights, MOST_PASSES, Scheme, TriangleRule,
+    Boundary, CornerRule, Creasing, Extraordinary, LoopWeights, MOST_PASSES, Scheme, TriangleRule,
 };
 
 object!(carvel_scheme, Scheme);
@@ -46,6 +46,9 @@ pub const CARVEL_TRIANGLE_RULE_SMOOTH: i32 = 1;
 pub const CARVEL_LOOP_WEIGHTS_LOOP: i32 = 0;
 pub const CARVEL_LOOP_WEIGHTS_WARREN: i32 = 1;
 
+pub const CARVEL_EXTRAORDINARY_DEFAULT: i32 = 0;
+pub const CARVEL_EXTRAORDINARY_TUNED: i32 = 1;
+
 versioned! {
     pub struct carvel_scheme_desc {
         pub struct_size: u32,
@@ -59,7 +62,7 @@ versioned! {
         pub creasing: i32,
         pub triangle_rule: i32,
         pub loop_weights: i32,
-        pub reserved: i32,
+        pub extraordinary: i32,
     }
 }
 
@@ -95,7 +98,8 @@ fn scheme(desc: &carvel_scheme_desc, passes: &[carvel_fraction]) -> Result<Schem
         .with_boundary(boundary(desc.boundary)?)
         .with_creasing(creasing(desc.creasing)?)
         .with_triangle_rule(triangle_rule(desc.triangle_rule)?)
-        .with_loop_weights(loop_weights(desc.loop_weights)?))
+        .with_loop_weights(loop_weights(desc.loop_weights)?)
+        .with_extraordinary(extraordinary(desc.extraordinary)?)?)
 }
 
 fn exact(passes: &[carvel_fraction]) -> Result<Vec<Fraction>> {
@@ -122,7 +126,7 @@ fn check_foreign_fields(desc: &carvel_scheme_desc) -> Result<()> {
         ("creasing", desc.creasing != 0, &[CARVEL_SCHEME_CATMULL_CLARK, CARVEL_SCHEME_LOOP]),
         ("triangle_rule", desc.triangle_rule != 0, &[CARVEL_SCHEME_CATMULL_CLARK]),
         ("loop_weights", desc.loop_weights != 0, &[CARVEL_SCHEME_LOOP]),
-        ("reserved", desc.reserved != 0, &[]),
+        ("extraordinary", desc.extraordinary != 0, &[CARVEL_SCHEME_THREE_POINT]),
     ];
     match foreign.iter().find(|(_, given, families)| *given && !families.contains(&desc.family)) {
         Some((name, ..)) => Err(Fault::out_of_range(format!(
@@ -183,6 +187,14 @@ fn loop_weights(weights: i32) -> Result<LoopWeights> {
         CARVEL_LOOP_WEIGHTS_LOOP => Ok(LoopWeights::Loop),
         CARVEL_LOOP_WEIGHTS_WARREN => Ok(LoopWeights::Warren),
         other => Err(Fault::out_of_range(format!("there are no Loop weights {other}"))),
+    }
+}
+
+fn extraordinary(rule: i32) -> Result<Extraordinary> {
+    match rule {
+        CARVEL_EXTRAORDINARY_DEFAULT => Ok(Extraordinary::Default),
+        CARVEL_EXTRAORDINARY_TUNED => Ok(Extraordinary::Tuned),
+        other => Err(Fault::out_of_range(format!("there is no extraordinary rule {other}"))),
     }
 }
 

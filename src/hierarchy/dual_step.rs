@@ -113,7 +113,8 @@ impl<'a> DualStep<'a> {
                     let around = star.map(|row| row.map(|v| widen(&values[v as usize])));
                     narrow::<T, W>(rule.around_vertex(around)[0])
                 }
-                None => sum.of(|sink| rows.pass_row(0, v, sink)),
+                None => tuned(rows, &mut sum.points, v)
+                    .unwrap_or_else(|| sum.of(|sink| rows.pass_row(0, v, sink))),
             },
         )
     }
@@ -169,6 +170,17 @@ impl<'a> DualStep<'a> {
         })?;
         context.fill(added, 1, |start, part| by_row(corners + start as u32, part))
     }
+}
+
+/// The value of a child vertex that has a row of its own.
+fn tuned<T: Scalar, const W: usize>(
+    rows: &mut DualRows<f64>,
+    sum: &mut Sum<T, W>,
+    vertex: u32,
+) -> Option<Value<T, W>> {
+    let mut sent = false;
+    let value = sum.of(|sink| sent = rows.tuned_row(vertex, sink));
+    sent.then_some(value)
 }
 
 /// The rule of a pass that exists, in the working precision.

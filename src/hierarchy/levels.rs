@@ -9,7 +9,7 @@ use crate::base::{Context, Error, ErrorKind, Result, Scalar};
 use crate::mesh::Mesh;
 use crate::refine::adjacency::Recycled;
 use crate::refine::{EdgeNumbers, FaceOrigin, Split, VertexOrigin};
-use crate::scheme::{RowSink, Scheme, SchemeRows};
+use crate::scheme::{ComposedRows, RowSink, Scheme, SchemeRows};
 use std::sync::Arc;
 
 /// The topology of levels 0 to n of a mesh under a scheme.
@@ -175,7 +175,8 @@ impl Hierarchy {
     }
 
     /// The rows of the step from `level − 1` to `level`, stage by stage: the
-    /// split's rows on the parent's vertices, then each pass's on the children.
+    /// split's rows on the parent's vertices, then each pass's on the children. With the tuned
+    /// rule, which some vertices have instead of split and pass, a step is one stage.
     /// `row` gets the stage, the vertex, and the row in `W`'s arithmetic.
     ///
     /// # Errors
@@ -185,7 +186,7 @@ impl Hierarchy {
         level: u32,
         mut row: impl FnMut(usize, u32, &[(u32, W)]),
     ) -> Result<()> {
-        (0..=self.scheme.passes().len()).try_for_each(|stage| {
+        (0..self.scheme.stages()).try_for_each(|stage| {
             self.each_row_of(level, stage, |vertex, entries: &[(u32, W)]| {
                 row(stage, vertex, entries);
             })
@@ -205,16 +206,26 @@ impl Hierarchy {
         mut row: impl FnMut(u32, &[(u32, W)]),
     ) -> Result<()> {
         let split = self.split_to(level)?;
-        let stages = self.scheme.passes().len() + 1;
+        let stages = self.scheme.stages();
         if stage >= stages {
             return Err(Error::new(
                 ErrorKind::ParameterOutOfRange,
                 format!("stage {stage}: a step has {stages}, counted from 0"),
             ));
         }
+        let vertices = split.counts().vertices as u32;
+        if !self.scheme.is_staged() {
+            let mut rows = ComposedRows::<W>::new(&self.scheme, &split);
+            for vertex in 0..vertices {
+                let entries: Vec<(u32, W)> = rows.row(vertex).into_iter().collect();
+                row(vertex, &entries);
+                rows.forget();
+            }
+            return Ok(());
+        }
         let mut rows = SchemeRows::<W>::new(&self.scheme, &split);
         let mut entries = Entries(Vec::new());
-        for vertex in 0..split.counts().vertices as u32 {
+        for vertex in 0..vertices {
             entries.0.clear();
             match stage.checked_sub(1) {
                 None => rows.split_row(vertex, &mut entries),

@@ -76,9 +76,9 @@ impl<'a> Builder<'a> {
         };
         let mut stage = self.split_stage(split, inputs, needs, table)?;
         for pass in 0..last {
-            stage = self.pass_stage(split, pass, needs, &stage)?;
+            stage = self.pass_stage(split, pass, needs, &stage, None)?;
         }
-        self.pass_stage(split, last, needs, &stage)
+        self.pass_stage(split, last, needs, &stage, Some((inputs, table)))
     }
 
     fn split_stage<T: Scalar>(
@@ -124,12 +124,15 @@ impl<'a> Builder<'a> {
         })
     }
 
+    /// The rows of a pass on those of the stage before; of the last pass with the rows of the
+    /// parents, for vertices that ask for these instead.
     fn pass_stage<T: Scalar>(
         &self,
         split: &Split,
         pass: usize,
         needs: &Needs,
         table: &StencilTable<f64>,
+        parents: Option<(&Wanted, &StencilTable<f64>)>,
     ) -> Result<StencilTable<T>> {
         let (before, wanted) = (needs.stage(pass), needs.stage(pass + 1));
         let state = || Ok((self.rows(split), Merged::default(), Accumulator::new(self.columns)?));
@@ -140,8 +143,15 @@ impl<'a> Builder<'a> {
             self.columns,
             state,
             |(rows, merged, sum): &mut (_, Merged, Accumulator<T>), at, out| {
+                let vertex = wanted.at(at);
+                if let Some((inputs, table)) = parents {
+                    let mut add = |v, weight| sum.add(table.row(inputs.place(v)), weight);
+                    if rows.tuned_row(vertex, &mut add) {
+                        return put(sum, watch, out);
+                    }
+                }
                 merged.0.clear();
-                rows.pass_row(pass, wanted.at(at), merged);
+                rows.pass_row(pass, vertex, merged);
                 for &(v, weight) in &merged.0 {
                     sum.add(table.row(before.place(v)), weight);
                 }

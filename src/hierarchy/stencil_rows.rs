@@ -45,6 +45,15 @@ impl<'a> StepRows<'a> {
         }
     }
 
+    /// The row of a child vertex that has one of its own instead of split and passes, on the
+    /// parent's vertices. False, and nothing sent, for all others.
+    pub(super) fn tuned_row(&mut self, vertex: u32, sink: &mut impl RowSink<f64>) -> bool {
+        match self {
+            Self::Dual(rows) => rows.tuned_row(vertex, sink),
+            Self::Primal(_) => false,
+        }
+    }
+
     /// The row of a child vertex in a pass, on the child vertices.
     pub(super) fn pass_row(&mut self, pass: usize, vertex: u32, sink: &mut impl RowSink<f64>) {
         match self {
@@ -144,21 +153,24 @@ impl Needs {
         passes: usize,
         last: Wanted,
     ) -> Result<(Self, Vec<u32>)> {
-        let mut stages = vec![last];
-        for pass in (0..passes).rev() {
-            let mut marks = memory::filled(NONE, split.counts().vertices as usize)?;
-            let after = &stages[stages.len() - 1];
-            for at in 0..after.len() {
-                rows.pass_row(pass, after.at(at), &mut |v: u32, _: f64| marks[v as usize] = 0);
-            }
-            stages.push(Wanted::marked(marks)?);
-        }
-        stages.reverse();
         let mesh = split.parent();
         let mut marks = Marks {
             vertices: memory::filled(NONE, mesh.vertices())?,
             faces: memory::filled(NONE, if has_faces(split) { mesh.faces() } else { 0 })?,
         };
+        let mut stages = vec![last];
+        for pass in (0..passes).rev() {
+            let mut before = memory::filled(NONE, split.counts().vertices as usize)?;
+            let after = &stages[stages.len() - 1];
+            for at in 0..after.len() {
+                let parents = &mut |v: u32, _: f64| marks.vertices[v as usize] = 0;
+                if pass + 1 < passes || !rows.tuned_row(after.at(at), parents) {
+                    rows.pass_row(pass, after.at(at), &mut |v: u32, _: f64| before[v as usize] = 0);
+                }
+            }
+            stages.push(Wanted::marked(before)?);
+        }
+        stages.reverse();
         for at in 0..stages[0].len() {
             rows.split_row(split, stages[0].at(at), &mut marks);
         }

@@ -11,7 +11,7 @@ use super::kernel::{QuadWeights, Value, quad_children, widen};
 use crate::base::{Context, Fraction, Result, Scalar, memory};
 use crate::mesh::Mesh;
 use crate::refine::Tiles;
-use crate::scheme::{CornerWeights, Scheme};
+use crate::scheme::{CornerWeights, Scheme, TunedWeights};
 
 /// The children of a vertex, counter-clockwise from the one in the face.
 type Ring<L> = [L; 4];
@@ -96,8 +96,10 @@ fn next_level<T: Scalar>(
     let t = scheme.passes()[0];
     context.fill(&mut next, 1, |first, part| {
         let mut weights = CornerWeights::<f64>::new(scheme.rule(), t);
+        let mut tuned = scheme.tunes(mesh).then(TunedWeights::new);
         for (corner, slot) in (first as u32..).zip(part) {
-            *slot = smoothed::<T>(mesh, &splits, corner, &mut weights);
+            let own = tuned.as_mut().and_then(|tuned| tuned_ring::<T>(mesh, rings, corner, tuned));
+            *slot = own.unwrap_or_else(|| smoothed::<T>(mesh, &splits, corner, &mut weights));
         }
     })?;
     Ok(next)
@@ -107,6 +109,27 @@ fn next_level<T: Scalar>(
 fn around(mesh: &Mesh, corner: u32) -> impl Iterator<Item = u32> + Clone {
     let face = mesh.layout.face(mesh.layout.face_of(corner));
     (corner..face.end).chain(face.start..corner)
+}
+
+/// The four children of a vertex by the tuned rule, if its face has one.
+fn tuned_ring<T: Scalar>(
+    mesh: &Mesh,
+    rings: &[Ring<T::Lanes>],
+    corner: u32,
+    tuned: &mut TunedWeights<f64>,
+) -> Option<Ring<T::Lanes>> {
+    let face = around(mesh, corner);
+    let rows = tuned.of(face.clone().count())?;
+    let at = |corner: u32| rings[corner as usize];
+    let [_, before, across, after] = at(corner);
+    // The vertices around, as they are sent.
+    let outside = [before, at(mesh.prev(corner))[3], across, at(mesh.next(corner))[1], after];
+    let zero = T::lanes([T::default(); 4]);
+    Some(std::array::from_fn(|child| {
+        let values = outside.into_iter().chain(face.clone().map(|c| at(c)[0]));
+        let weights = rows[child].iter().map(|&w| T::from_f64(w));
+        values.zip(weights).fold(zero, |sum, (x, w)| sum + x * w)
+    }))
 }
 
 /// The pass at the four children of a vertex: the face of each, what its two edges and its

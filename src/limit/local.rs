@@ -7,8 +7,8 @@ use crate::base::{Context, Error, ErrorKind, NONE, Result, Weight, memory};
 use crate::hierarchy::Hierarchy;
 use crate::mesh::Mesh;
 use crate::refine::{EdgeNumbers, FaceOrigin, Pieces, VertexOrigin};
-use crate::scheme::{Scheme, SchemeRows, SplitKind};
-use std::collections::{BTreeMap, HashMap};
+use crate::scheme::{ComposedRow, ComposedRows, Scheme, SplitKind};
+use std::collections::HashMap;
 
 /// The level from which on a step does the same around a feature as the one before.
 const STATIONARY: u32 = 1;
@@ -81,14 +81,13 @@ impl Model {
     fn each_row<W: Weight>(
         &self,
         vertices: &[u32],
-        mut row: impl FnMut(usize, Row<W>) -> Result<()>,
+        mut row: impl FnMut(usize, ComposedRow<W>) -> Result<()>,
     ) -> Result<()> {
         let scheme = self.hierarchy.scheme();
         let mut memory = EdgeNumbers::default();
         let split = scheme.plan(&Context::serial(), self.mesh(), &mut memory)?;
-        let mut rows = Composed { rows: SchemeRows::new(scheme, &split), known: HashMap::new() };
-        let stages = scheme.passes().len();
-        vertices.iter().enumerate().try_for_each(|(i, &v)| row(i, rows.row(stages, v)))
+        let mut rows = ComposedRows::new(scheme, &split);
+        vertices.iter().enumerate().try_for_each(|(i, &v)| row(i, rows.row(v)))
     }
 }
 
@@ -140,52 +139,6 @@ fn broken(message: &str) -> Error {
     Error::new(ErrorKind::BrokenInvariant, message)
 }
 
-/// Vertices of the parent mesh with weights.
-type Row<W> = BTreeMap<u32, W>;
-
-/// Rows of a step with all its passes, each made once.
-struct Composed<'a, W> {
-    rows: SchemeRows<'a, W>,
-    known: HashMap<(usize, u32), Row<W>>,
-}
-
-impl<W: Weight> Composed<'_, W> {
-    fn row(&mut self, stage: usize, vertex: u32) -> Row<W> {
-        if let Some(row) = self.known.get(&(stage, vertex)) {
-            return row.clone();
-        }
-        let mut entries = Vec::new();
-        let mut sink = |v: u32, weight: W| entries.push((v, weight));
-        let mut row = Row::new();
-        match stage.checked_sub(1) {
-            None => {
-                self.rows.split_row(vertex, &mut sink);
-                for (v, weight) in entries {
-                    add(&mut row, v, weight);
-                }
-            }
-            Some(before) => {
-                self.rows.pass_row(before, vertex, &mut sink);
-                for (v, outer) in entries {
-                    for (v, inner) in self.row(before, v) {
-                        add(&mut row, v, outer.clone() * inner);
-                    }
-                }
-            }
-        }
-        self.known.insert((stage, vertex), row.clone());
-        row
-    }
-}
-
-fn add<W: Weight>(row: &mut Row<W>, vertex: u32, weight: W) {
-    let sum = match row.remove(&vertex) {
-        Some(before) => before + weight,
-        None => weight,
-    };
-    row.insert(vertex, sum);
-}
-
 /// The step of a scheme around a feature, once it repeats itself.
 ///
 /// Its rows are the scheme's own. Around an interior feature vertices come in orbits of the
@@ -224,7 +177,7 @@ impl<W: Weight> LocalMatrix<W> {
             let children: Vec<u32> =
                 chosen[done..].iter().map(|&orbit| around.orbits[orbit].child).collect();
             let mut rows = Vec::new();
-            model.each_row(&children, |_, row: Row<W>| {
+            model.each_row(&children, |_, row: ComposedRow<W>| {
                 let named = |(v, weight)| around.name(v).map(|name| (name, weight));
                 let row: Option<Vec<(Name, W)>> = row.into_iter().map(named).collect();
                 rows.push(row.ok_or_else(|| broken("a row reaches out of the neighbourhood"))?);

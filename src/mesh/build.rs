@@ -272,6 +272,7 @@ impl Soup {
             runs: Vec::new(),
             corner_tags: Vec::new(),
             anchored: false,
+            refined: false,
             face_source: self.source,
         })
     }
@@ -361,6 +362,7 @@ fn set_tags(
     }
     mesh.corner_tags = tags;
     mesh.anchored = options.anchored;
+    mesh.refined = options.anchored;
     let (creases, sharp) = (options.creases, options.sharp_vertices);
     mesh.sharpness = sharpness::collect(mesh, creases, sharp, source, vertices)?;
     joints::sharpen_vertices(mesh)?;

@@ -89,6 +89,7 @@ impl Channel {
             runs: Vec::new(),
             corner_tags: Vec::new(),
             anchored: false,
+            refined: false,
             face_source: None,
         };
         cut.joints.sides = joints(mesh, &cut)?;

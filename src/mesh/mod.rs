@@ -75,6 +75,8 @@ pub struct Mesh {
     pub(crate) runs: Vec<u32>,
     pub(crate) corner_tags: Vec<u32>,
     pub(crate) anchored: bool,
+    /// A corner split has made it, or its caller marked it anchored: no control mesh.
+    pub(crate) refined: bool,
     /// Input face of each face, where the order was changed.
     pub(crate) face_source: Option<Vec<u32>>,
 }

@@ -78,6 +78,7 @@ impl CornerSplit<'_> {
             runs: Vec::new(),
             corner_tags: Vec::new(),
             anchored,
+            refined: true,
             face_source: None,
         };
         child.special_set = VertexSet::new(child.start.len(), &child.special)?;

@@ -45,6 +45,7 @@ impl PrimalSplit<'_> {
             runs: self.runs()?,
             corner_tags: memory::copied(&self.parent.corner_tags)?,
             anchored: false,
+            refined: false,
             face_source: None,
         })
     }

@@ -1,7 +1,7 @@
 //! A scheme: a split, the weights that go with it, and options.
 
 use super::CornerRule;
-use super::scheme_options::{Boundary, LoopWeights, TriangleRule};
+use super::scheme_options::{Boundary, Extraordinary, LoopWeights, TriangleRule};
 use crate::base::{Context, Element, Error, ErrorKind, Fraction, Result, memory};
 use crate::mesh::Mesh;
 use crate::refine::{Carried, CornerSplit, Creasing, EdgeNumbers, Pieces, PrimalSplit, Split};
@@ -50,6 +50,7 @@ pub struct Scheme {
     creasing: Creasing,
     triangle_rule: TriangleRule,
     loop_weights: LoopWeights,
+    extraordinary: Extraordinary,
 }
 
 impl Scheme {
@@ -63,6 +64,7 @@ impl Scheme {
             creasing: Creasing::default(),
             triangle_rule: TriangleRule::default(),
             loop_weights: LoopWeights::default(),
+            extraordinary: Extraordinary::default(),
         }
     }
 
@@ -101,6 +103,52 @@ impl Scheme {
         self
     }
 
+    /// The same scheme with another rule around faces that are no quads.
+    ///
+    /// [`Extraordinary::Tuned`] replaces split and pass at the four children of every interior
+    /// vertex of valence 4 with exactly one face that is no quad, if that face has 3 to 32 sides.
+    /// The limit is C¹ with bounded, non-vanishing curvature (λ = ½, μ = ¼); its shape is good
+    /// up to 8 sides and fair to 12. Everywhere else, and beside boundary faces that are completed
+    /// by mirror images, the scheme does what it did.
+    ///
+    /// The rule counts from the second step on. What has been refined already is known by its
+    /// mesh: a level that a step of a dual scheme made, or one marked *anchored*
+    /// ([`BuildOptions::anchored`](crate::mesh::BuildOptions)). A control mesh without that mark
+    /// takes the default in its first step, even where its vertices have such a shape.
+    ///
+    /// # Errors
+    /// [`ErrorKind::Unsupported`] for the tuned rule of any scheme but three-point with w = 1/32:
+    /// it was computed for that one's regular stencils.
+    pub fn with_extraordinary(mut self, extraordinary: Extraordinary) -> Result<Self> {
+        let paper = self.method == Method::Dual && self.passes == [Fraction::HALF];
+        if extraordinary == Extraordinary::Tuned && !paper {
+            let message = format!(
+                "the tuned rule fits the stencils of three-point with w = 1/32, a corner split \
+                 and the pass 1/2, not those of {}",
+                self.described()
+            );
+            return Err(Error::new(ErrorKind::Unsupported, message));
+        }
+        self.extraordinary = extraordinary;
+        Ok(self)
+    }
+
+    /// What the scheme is made of.
+    fn described(&self) -> String {
+        let split = match self.method {
+            Method::Dual => "a corner split",
+            Method::Primal => "a quad split",
+            Method::CatmullClark => return "Catmull-Clark".to_owned(),
+            Method::Loop => return "Loop".to_owned(),
+        };
+        let passes: Vec<_> = self.passes.iter().map(ToString::to_string).collect();
+        match &passes[..] {
+            [] => format!("{split} without passes"),
+            [pass] => format!("{split} and the pass {pass}"),
+            _ => format!("{split} and the passes {}", passes.join(", ")),
+        }
+    }
+
     /// The smoothing passes of the averaging family, in order.
     pub fn passes(&self) -> &[Fraction] {
         &self.passes
@@ -129,6 +177,28 @@ impl Scheme {
     /// The weights of Loop's scheme.
     pub fn loop_weights(&self) -> LoopWeights {
         self.loop_weights
+    }
+
+    /// The rule around faces that are no quads.
+    pub fn extraordinary(&self) -> Extraordinary {
+        self.extraordinary
+    }
+
+    /// False if the rows of a step cannot be told by stages: some vertices have rows instead
+    /// of split and passes.
+    pub(crate) fn is_staged(&self) -> bool {
+        self.extraordinary != Extraordinary::Tuned
+    }
+
+    /// How many stages the rows of a step come in: the split and each pass, or, with the tuned
+    /// rule, all in one.
+    pub fn stages(&self) -> usize {
+        if self.is_staged() { 1 + self.passes.len() } else { 1 }
+    }
+
+    /// True if a step on this mesh heeds the tuned rule.
+    pub(crate) fn tunes(&self, mesh: &Mesh) -> bool {
+        self.extraordinary == Extraordinary::Tuned && mesh.refined
     }
 
     /// How faces are split.

@@ -1,9 +1,9 @@
 //! The rows of the dual averaging family: split rows and pass rows.
 
 use super::mirror::cycle_row;
-use super::{Boundary, CornerWeights, RowSink, Scheme};
+use super::{Boundary, CornerWeights, RowSink, Scheme, TunedWeights};
 use crate::base::{Fraction, NONE, Weight};
-use crate::refine::{BoundaryNeighbours, Child, CornerSplit, Cycle, Neighbourhood};
+use crate::refine::{BoundaryNeighbours, Child, CornerSplit, Cycle, IsolatedFace, Neighbourhood};
 
 /// The rows of one dual step on one mesh, in a number type of choice.
 ///
@@ -15,6 +15,8 @@ pub(crate) struct DualRows<'a, W> {
     anchored: bool,
     corner: CornerWeights<W>,
     passes: Vec<Pass<W>>,
+    /// What some vertices have instead of all that.
+    tuned: Option<TunedWeights<W>>,
     cycle: Cycle,
 }
 
@@ -38,8 +40,28 @@ impl<'a, W: Weight> DualRows<'a, W> {
             anchored: scheme.boundary() != Boundary::None,
             corner: CornerWeights::new(rule, Fraction::HALF),
             passes: scheme.passes().iter().map(pass).collect(),
+            tuned: scheme.tunes(split.parent()).then(TunedWeights::new),
             cycle: Cycle::new(),
         }
+    }
+
+    /// The row of a child vertex that the tuned rule is for, on the parent's vertices: instead
+    /// of split and pass. False, and nothing sent, for all others.
+    pub(crate) fn tuned_row(&mut self, vertex: u32, sink: &mut impl RowSink<W>) -> bool {
+        let mirrored = self.mirrors_faces();
+        let (Some(tuned), Child::Corner(corner)) = (&mut self.tuned, self.split.child(vertex))
+        else {
+            return false;
+        };
+        let Some(around) = IsolatedFace::around(self.split.parent(), corner, mirrored) else {
+            return false;
+        };
+        let Some(rows) = tuned.of(around.sides()) else { return false };
+        let vertices = around.vertices(self.split.parent());
+        for (v, weight) in vertices.zip(&rows[around.child]) {
+            sink.add(v, weight.clone());
+        }
+        true
     }
 
     /// The row of a child vertex after the split, on the parent's vertices.

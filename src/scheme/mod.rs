@@ -6,6 +6,7 @@
 
 mod averaging;
 mod choice;
+mod composed_rows;
 mod corner;
 mod crease_rules;
 mod dual_rows;
@@ -18,11 +19,14 @@ mod regular;
 mod rows;
 mod scheme_options;
 mod smooth;
+mod tuned;
+mod tuned_numbers;
 
 #[cfg(feature = "capi")]
 pub(crate) use averaging::MOST_PASSES;
 pub(crate) use choice::Method;
 pub use choice::{Scheme, SplitKind};
+pub(crate) use composed_rows::{ComposedRow, ComposedRows};
 pub use corner::CornerRule;
 pub(crate) use corner::CornerWeights;
 pub(crate) use dual_rows::DualRows;
@@ -31,7 +35,8 @@ pub(crate) use primal_rows::{PointSink, PrimalRows};
 pub(crate) use regular::Taps;
 pub use rows::RowSink;
 pub(crate) use rows::SchemeRows;
-pub use scheme_options::{Boundary, LoopWeights, TriangleRule};
+pub use scheme_options::{Boundary, Extraordinary, LoopWeights, TriangleRule};
 pub(crate) use smooth::{SmoothMasks, VertexMask};
+pub(crate) use tuned::TunedWeights;
 
 pub use crate::refine::Creasing;

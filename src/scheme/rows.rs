@@ -43,6 +43,15 @@ impl<'a, W: Weight> SchemeRows<'a, W> {
         }
     }
 
+    /// The row of a child vertex that has one of its own instead of split and passes, on the
+    /// parent's vertices. False, and nothing sent, for all others.
+    pub(crate) fn tuned_row(&mut self, vertex: u32, sink: &mut impl RowSink<W>) -> bool {
+        match self {
+            Self::Dual(rows) => rows.tuned_row(vertex, sink),
+            Self::Primal(_) => false,
+        }
+    }
+
     /// The row of a child vertex in a pass, on the child vertices.
     pub(crate) fn pass_row(&mut self, pass: usize, vertex: u32, sink: &mut impl RowSink<W>) {
         match self {

@@ -27,6 +27,18 @@ pub enum TriangleRule {
     Smooth,
 }
 
+/// What the paper's three-point scheme does around faces that are no quads.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[non_exhaustive]
+pub enum Extraordinary {
+    /// Split and pass, as everywhere.
+    #[default]
+    Default,
+    /// Stencils that keep the curvature in the middle of such a face bounded and away from
+    /// zero; see [`Scheme::with_extraordinary`](crate::Scheme::with_extraordinary).
+    Tuned,
+}
+
 /// The weights of Loop's scheme at extraordinary vertices.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
 #[non_exhaustive]

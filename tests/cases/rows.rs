@@ -36,7 +36,7 @@ fn rows_sum_to_one_and_give_the_positions() {
 fn apply(hierarchy: &Hierarchy, positions: &[f64], what: &str) -> Vec<f64> {
     let mut values = positions.to_vec();
     for level in 1..=LEVELS {
-        for stage in 0..=hierarchy.scheme().passes().len() {
+        for stage in 0..hierarchy.scheme().stages() {
             values = apply_stage(hierarchy, (level, stage), &values, what);
         }
     }

@@ -1,7 +1,7 @@
 //! Every scheme that the cases run under: a line each.
 
 use carvel::scheme::{Creasing, LoopWeights, TriangleRule};
-use carvel::{Boundary, CornerRule, Fraction, Mesh, Scheme};
+use carvel::{Boundary, CornerRule, Extraordinary, Fraction, Mesh, Scheme};
 
 use crate::case::Case;
 
@@ -36,11 +36,13 @@ pub fn all() -> Vec<Named> {
     let steep = Scheme::dual(&[fraction(0, 1), fraction(7, 2)]).expect("passes");
     let (catmull_clark, triangles) = (Scheme::catmull_clark(), Scheme::loop_triangles());
     let smooth = catmull_clark.clone().with_triangle_rule(TriangleRule::Smooth);
+    let tuned = three_point(1, 32).with_extraordinary(Extraordinary::Tuned).expect("w = 1/32");
     let warren = triangles.clone().with_loop_weights(LoopWeights::Warren);
     vec![
         any("Doo-Sabin", Scheme::doo_sabin(), is_sharp),
         named("Catmull and Clark's quadratic", averaged(Scheme::doo_sabin()), is_sharp),
         named("three-point 1/32", three_point(1, 32), is_sharp),
+        named("three-point 1/32, tuned", tuned, is_sharp),
         named("three-point 1/64, average", averaged(three_point(1, 64)), is_sharp),
         named("quartic", Scheme::quartic(), is_sharp),
         named("B-spline of degree 6", b_spline(6), is_sharp),

@@ -14,6 +14,17 @@ fn a_table_has_a_row_for_each_valence() {
 }
 
 #[test]
+fn the_tuned_rule_keeps_curvature_bounded() {
+    let bench = Bench::new();
+    let run = bench.run("analyse three-point --extraordinary tuned --valence 3,12,32").ok();
+    let text = run.out_text();
+    let rows: Vec<&str> = text.lines().filter(|line| line.contains("0.50000000")).collect();
+    assert_eq!(rows.len(), 3, "{text}");
+    let bounded = |row: &&str| row.contains("0.25000000") && row.contains("curvature bounded");
+    assert!(rows.iter().all(bounded), "{text}");
+}
+
+#[test]
 fn json_has_eigenvalues_and_limits() {
     let bench = Bench::new();
     let json = bench.run("analyse --scheme catmull-clark --valence 5 --json").ok().json();

@@ -125,6 +125,16 @@ fn options_belong_to_their_schemes() {
              averaging, not to loop"
                 .to_owned(),
         ),
+        (
+            "--scheme quartic --extraordinary tuned",
+            "--extraordinary belongs to --scheme three-point, not to quartic".to_owned(),
+        ),
+        (
+            "--w 1/64 --extraordinary tuned",
+            "w = 1/32, a corner split and the pass 1/2, not those of a corner split and the pass \
+             3/4"
+            .to_owned(),
+        ),
         ("--scheme catmull-clark --w 0", "--w belongs to --scheme three-point".to_owned()),
         ("--scheme loop --anchored", "--anchored belongs to dual schemes, not to loop".to_owned()),
         (

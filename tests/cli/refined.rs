@@ -74,6 +74,23 @@ fn schemes_are_the_ones_asked_for() {
     assert_ne!(made(&["--levels", "3"]), made(&["--levels", "3", "--corner-rule", "average"]));
 }
 
+/// From the second step on: a triangle's first corner among quads.
+#[test]
+fn the_tuned_rule_takes_faces_that_are_no_quads() {
+    let bench = Bench::new();
+    bench.put("cube.obj", CUBE);
+    let made = |options: &str, levels: u32| {
+        let args = format!("subdivide cube.obj -o - --quiet --levels {levels} {options}");
+        bench.run(&args).ok().out
+    };
+    let tuned = "--w 1/32 --extraordinary tuned";
+    assert_eq!(made(tuned, 1), made("", 1));
+    assert_ne!(made(tuned, 2), made("", 2));
+    assert_eq!(made("--extraordinary default", 2), made("", 2));
+    let report = bench.run(&format!("subdivide cube.obj -o out.obj --json {tuned}")).ok().json();
+    assert_eq!(report["scheme"]["extraordinary"], "tuned");
+}
+
 #[test]
 fn doo_sabin_on_a_cube_is_what_the_paper_says() {
     let bench = Bench::new();

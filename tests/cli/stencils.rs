@@ -82,12 +82,13 @@ fn own(bench: &Bench) -> StencilTable<f64> {
     }
 }
 
-const SCHEMES: [&str; 6] = [
+const SCHEMES: [&str; 7] = [
     "",
     "--scheme doo-sabin --boundary none",
     "--scheme catmull-clark --crease-angle 30 --crease-sharpness 1.5",
     "--scheme bilinear --levels 3",
     "--scheme bspline --degree 5 --corner-rule average",
+    "--scheme three-point --extraordinary tuned",
     "--scheme averaging --passes 1/2,0 --levels 1",
 ];
 

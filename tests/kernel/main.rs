@@ -13,4 +13,5 @@ mod patches;
 mod properties;
 mod support;
 mod topology;
+mod tuned;
 mod vertex_limits;

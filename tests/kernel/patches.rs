@@ -14,6 +14,7 @@ use crate::support::generate::{Kind, meshes};
 use crate::support::kernel::{self, bits};
 use crate::support::poly::Poly;
 use crate::support::rng::Rng;
+use crate::tuned::tuned;
 
 /// Every face a fan of triangles around a new vertex.
 fn poked(mesh: &Poly<f64>) -> Poly<f64> {
@@ -189,9 +190,10 @@ fn three_point(w: (i64, i64)) -> Scheme {
     Scheme::three_point(Fraction::new(w.0, w.1).expect("a fraction")).expect("a weight in range")
 }
 
-/// One without a pass, the paper's, one with centroids for a pass, and one in between.
-fn dual_schemes() -> [Scheme; 4] {
-    [Scheme::doo_sabin(), three_point((1, 32)), Scheme::quartic(), three_point((1, 100))]
+/// One without a pass, the paper's and tuned, one with centroids for a pass, and one in between.
+fn dual_schemes() -> [Scheme; 5] {
+    let between = three_point((1, 100));
+    [Scheme::doo_sabin(), three_point((1, 32)), tuned(), Scheme::quartic(), between]
 }
 
 /// The middles of a cube's edges: triangles and quads around vertices of valence 4.
@@ -254,10 +256,12 @@ fn tiles_around_faces_that_are_no_quads() {
         bases::bipyramid(3),
         bases::bipyramid(11),
         bases::prism(11),
+        bases::prism(32),
+        bases::prism(33),
         bases::pillow(8),
         lone_vertex(),
     ] {
-        for scheme in [Scheme::doo_sabin(), three_point((1, 32))] {
+        for scheme in [Scheme::doo_sabin(), three_point((1, 32)), tuned()] {
             let fewest = levels(&control, &scheme, 0);
             for levels in fewest..=fewest + 2 {
                 assert_eq!(depth(&control, &scheme, levels), 2 + levels - fewest);
@@ -277,7 +281,7 @@ fn tiles_around_faces_that_are_no_quads() {
 #[test]
 fn tiles_of_the_first_split() {
     for control in [bases::several(&bases::octahedron(), 10), bases::several(&cuboctahedron(), 6)] {
-        for scheme in [Scheme::doo_sabin(), three_point((1, 32))] {
+        for scheme in [Scheme::doo_sabin(), three_point((1, 32)), tuned()] {
             for levels in 3..=5 {
                 assert_eq!(depth(&control, &scheme, levels), levels - 1);
                 check::<f32>(&control, &scheme, levels);

@@ -222,6 +222,7 @@ fn refinement_goes_to_the_limits() {
         three_point(),
         three_point().with_rule(CornerRule::Average),
         three_point().with_boundary(Boundary::Edge),
+        crate::tuned::tuned(),
         quartic,
         Scheme::doo_sabin(),
         Scheme::catmull_clark(),

@@ -21,6 +21,7 @@ impl Run<'_> {
         let creasing = option(self, &[CARVEL_SCHEME_CATMULL_CLARK, CARVEL_SCHEME_LOOP]);
         let triangle_rule = option(self, &[CARVEL_SCHEME_CATMULL_CLARK]);
         let loop_weights = option(self, &[CARVEL_SCHEME_LOOP]);
+        let extraordinary = option(self, &[CARVEL_SCHEME_THREE_POINT]);
         let corner_rule = if (5..8).contains(&family) { 0 } else { self.number(2) as i32 };
         let absurd = self.rarely();
         let desc = carvel_scheme_desc {
@@ -43,7 +44,7 @@ impl Run<'_> {
             creasing,
             triangle_rule,
             loop_weights,
-            reserved: self.rarely().into(),
+            extraordinary,
         };
         // SAFETY: `passes` are there unless their count is absurd.
         let made =

@@ -19,27 +19,31 @@ typedef struct scheme_line {
     uint64_t degree;
     const carvel_fraction *passes;
     uint64_t pass_count;
-    int32_t creasing, triangle_rule, loop_weights;
+    int32_t creasing, triangle_rule, loop_weights, extraordinary;
 } scheme_line;
 
 static const carvel_fraction four_point[2] = { { 0, 1 }, { 7, 2 } };
 
 /* Every scheme of the header, a line each. */
 static const scheme_line schemes[] = {
-    { CARVEL_SCHEME_DOO_SABIN, CARVEL_CORNER_RULE_COSINE, 0, NULL, 0, 0, 0, 0 },
-    { CARVEL_SCHEME_DOO_SABIN, CARVEL_CORNER_RULE_AVERAGE, 0, NULL, 0, 0, 0, 0 },
-    { CARVEL_SCHEME_THREE_POINT, CARVEL_CORNER_RULE_COSINE, 0, NULL, 0, 0, 0, 0 },
-    { CARVEL_SCHEME_QUARTIC, CARVEL_CORNER_RULE_COSINE, 0, NULL, 0, 0, 0, 0 },
-    { CARVEL_SCHEME_B_SPLINE, CARVEL_CORNER_RULE_AVERAGE, 4, NULL, 0, 0, 0, 0 },
-    { CARVEL_SCHEME_AVERAGING, CARVEL_CORNER_RULE_COSINE, 0, four_point, 2, 0, 0, 0 },
-    { CARVEL_SCHEME_B_SPLINE, CARVEL_CORNER_RULE_AVERAGE, 5, NULL, 0, 0, 0, 0 },
-    { CARVEL_SCHEME_PRIMAL, CARVEL_CORNER_RULE_COSINE, 0, four_point, 2, 0, 0, 0 },
-    { CARVEL_SCHEME_BILINEAR, 0, 0, NULL, 0, 0, 0, 0 },
+    { CARVEL_SCHEME_DOO_SABIN, CARVEL_CORNER_RULE_COSINE, 0, NULL, 0, 0, 0, 0, 0 },
+    { CARVEL_SCHEME_DOO_SABIN, CARVEL_CORNER_RULE_AVERAGE, 0, NULL, 0, 0, 0, 0, 0 },
+    { CARVEL_SCHEME_THREE_POINT, CARVEL_CORNER_RULE_COSINE, 0, NULL, 0, 0, 0, 0, 0 },
+    { CARVEL_SCHEME_THREE_POINT, CARVEL_CORNER_RULE_COSINE, 0, NULL, 0, 0, 0, 0,
+      CARVEL_EXTRAORDINARY_TUNED },
+    { CARVEL_SCHEME_QUARTIC, CARVEL_CORNER_RULE_COSINE, 0, NULL, 0, 0, 0, 0, 0 },
+    { CARVEL_SCHEME_B_SPLINE, CARVEL_CORNER_RULE_AVERAGE, 4, NULL, 0, 0, 0, 0, 0 },
+    { CARVEL_SCHEME_AVERAGING, CARVEL_CORNER_RULE_COSINE, 0, four_point, 2, 0, 0, 0, 0 },
+    { CARVEL_SCHEME_B_SPLINE, CARVEL_CORNER_RULE_AVERAGE, 5, NULL, 0, 0, 0, 0, 0 },
+    { CARVEL_SCHEME_PRIMAL, CARVEL_CORNER_RULE_COSINE, 0, four_point, 2, 0, 0, 0, 0 },
+    { CARVEL_SCHEME_BILINEAR, 0, 0, NULL, 0, 0, 0, 0, 0 },
     { CARVEL_SCHEME_CATMULL_CLARK, 0, 0, NULL, 0, CARVEL_CREASING_UNIFORM,
-      CARVEL_TRIANGLE_RULE_SMOOTH, 0 },
-    { CARVEL_SCHEME_CATMULL_CLARK, 0, 0, NULL, 0, CARVEL_CREASING_CHAIKIN, 0, 0 },
-    { CARVEL_SCHEME_LOOP, 0, 0, NULL, 0, CARVEL_CREASING_UNIFORM, 0, CARVEL_LOOP_WEIGHTS_WARREN },
-    { CARVEL_SCHEME_LOOP, 0, 0, NULL, 0, CARVEL_CREASING_CHAIKIN, 0, CARVEL_LOOP_WEIGHTS_LOOP },
+      CARVEL_TRIANGLE_RULE_SMOOTH, 0, 0 },
+    { CARVEL_SCHEME_CATMULL_CLARK, 0, 0, NULL, 0, CARVEL_CREASING_CHAIKIN, 0, 0, 0 },
+    { CARVEL_SCHEME_LOOP, 0, 0, NULL, 0, CARVEL_CREASING_UNIFORM, 0, CARVEL_LOOP_WEIGHTS_WARREN,
+      0 },
+    { CARVEL_SCHEME_LOOP, 0, 0, NULL, 0, CARVEL_CREASING_CHAIKIN, 0, CARVEL_LOOP_WEIGHTS_LOOP,
+      0 },
 };
 
 static const int32_t boundaries[] = { CARVEL_BOUNDARY_EDGE_AND_CORNER, CARVEL_BOUNDARY_EDGE,
@@ -59,6 +63,7 @@ static carvel_scheme *scheme_by_line(const scheme_line *line, int32_t boundary)
     desc.creasing = line->creasing;
     desc.triangle_rule = line->triangle_rule;
     desc.loop_weights = line->loop_weights;
+    desc.extraordinary = line->extraordinary;
     CHECK_OK(carvel_scheme_create(&desc, &scheme, failure));
     return scheme;
 }

@@ -454,11 +454,11 @@ static uint64_t passes_of(const carvel_scheme *scheme)
     return count;
 }
 
-static void check_hierarchy(const poly *control, const carvel_scheme *scheme, int split)
+static void check_stages(const poly *control, const carvel_scheme *scheme, int split,
+                         uint64_t last)
 {
     carvel_mesh *mesh = poly_mesh(control), *kept = poly_mesh(control);
     carvel_hierarchy *hierarchy = hierarchy_of(mesh, scheme, LEVELS);
-    uint64_t passes = passes_of(scheme);
     uint32_t level;
     /* The hierarchy keeps what it needs. */
     carvel_mesh_destroy(mesh);
@@ -471,11 +471,46 @@ static void check_hierarchy(const poly *control, const carvel_scheme *scheme, in
     /* The row is laid once, and refined along itself from then on; without one
      * nothing is ever laid. */
     check_lineage(hierarchy, 2, split == ROW ? DUAL : split);
-    check_rows(hierarchy, passes, control);
-    check_no_more_stages(hierarchy, passes);
+    check_rows(hierarchy, last, control);
+    check_no_more_stages(hierarchy, last);
     check_not_built(hierarchy);
     carvel_hierarchy_destroy(hierarchy);
     carvel_mesh_destroy(kept);
+}
+
+/* A stage for the split and each pass. */
+static void check_hierarchy(const poly *control, const carvel_scheme *scheme, int split)
+{
+    check_stages(control, scheme, split, passes_of(scheme));
+}
+
+/* A step with the tuned rule is one stage, and its values are others from level 2 on. */
+static void check_tuned(const poly *control, int split)
+{
+    carvel_mesh *mesh = poly_mesh(control);
+    carvel_scheme *plain = NULL, *tuned = NULL;
+    carvel_scheme_desc desc;
+    uint32_t level;
+    CHECK_OK(carvel_scheme_desc_init(&desc, sizeof desc));
+    desc.family = CARVEL_SCHEME_THREE_POINT;
+    CHECK_OK(carvel_scheme_create(&desc, &plain, failure));
+    desc.extraordinary = CARVEL_EXTRAORDINARY_TUNED;
+    CHECK_OK(carvel_scheme_create(&desc, &tuned, failure));
+    CHECK_UINT(1, passes_of(tuned));
+    check_stages(control, tuned, split, 0);
+    for (level = 1; level <= LEVELS; level++) {
+        level64 by_rule, by_default;
+        level64_refine(&by_rule, NULL, mesh, tuned, level, control->positions);
+        level64_refine(&by_default, NULL, mesh, plain, level, control->positions);
+        CHECK((memcmp(by_rule.output.positions.data, by_default.output.positions.data,
+                      (size_t)by_rule.counts.vertices * 3 * sizeof(double)) == 0) ==
+              (level == 1));
+        level64_free(&by_rule);
+        level64_free(&by_default);
+    }
+    carvel_scheme_destroy(plain);
+    carvel_scheme_destroy(tuned);
+    carvel_mesh_destroy(mesh);
 }
 
 static void check_family(const poly *control, int32_t family, int open)
@@ -539,6 +574,7 @@ int main(void)
     check_begin();
     check_context("cube");
     check_family(cube, CARVEL_SCHEME_THREE_POINT, 0);
+    check_tuned(cube, DUAL);
     check_context("grid");
     check_family(grid, CARVEL_SCHEME_DOO_SABIN, 1);
     check_family(grid, CARVEL_SCHEME_B_SPLINE, 1);
@@ -553,6 +589,7 @@ int main(void)
     check_primal(octahedron, CARVEL_SCHEME_LOOP, TRIANGLES);
     check_primal(strip, CARVEL_SCHEME_LOOP, TRIANGLES);
     check_odd_spline(mixed);
+    check_tuned(mixed, ROW);
     check_lives_on();
     poly_free(octahedron);
     poly_free(strip);

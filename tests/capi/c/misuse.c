@@ -380,7 +380,7 @@ static versioned scheme_version(void)
         offsetof(carvel_scheme_desc, pass_count),
         offsetof(carvel_scheme_desc, creasing), offsetof(carvel_scheme_desc, triangle_rule),
         offsetof(carvel_scheme_desc, loop_weights),
-        offsetof(carvel_scheme_desc, reserved)
+        offsetof(carvel_scheme_desc, extraordinary)
     };
     return VERSIONED(carvel_scheme_desc, ends);
 }
@@ -466,6 +466,12 @@ static void check_scheme_values(void)
     SCHEME(PARAMETER_OUT_OF_RANGE, desc.family = INT32_MAX);
     SCHEME(PARAMETER_OUT_OF_RANGE, desc.corner_rule = 2);
     SCHEME(PARAMETER_OUT_OF_RANGE, desc.corner_rule = INT32_MIN);
+#define TUNED (desc.family = CARVEL_SCHEME_THREE_POINT, desc.extraordinary = 1)
+    SCHEME(OK, TUNED);
+    SCHEME(OK, (TUNED, FRACTION(desc.w, 2, 64)));
+    SCHEME(UNSUPPORTED, (TUNED, FRACTION(desc.w, 1, 64)));
+    SCHEME(PARAMETER_OUT_OF_RANGE, (TUNED, desc.extraordinary = 2));
+    SCHEME(PARAMETER_OUT_OF_RANGE, (TUNED, desc.family = CARVEL_SCHEME_AVERAGING));
     SCHEME(PARAMETER_OUT_OF_RANGE, desc.boundary = 3);
     SCHEME(PARAMETER_OUT_OF_RANGE, desc.boundary = -1);
     SCHEME(OK, THREE_POINT(0, 0));
@@ -526,8 +532,8 @@ static void check_primal_values(void)
     SCHEME(PARAMETER_OUT_OF_RANGE, CATMULL_CLARK(desc.corner_rule = 1));
     SCHEME(PARAMETER_OUT_OF_RANGE, LOOP(desc.corner_rule = 1));
     SCHEME(PARAMETER_OUT_OF_RANGE, BILINEAR(desc.corner_rule = 1));
-    SCHEME(PARAMETER_OUT_OF_RANGE, CATMULL_CLARK(desc.reserved = 1));
-    SCHEME(PARAMETER_OUT_OF_RANGE, desc.reserved = -1);
+    SCHEME(PARAMETER_OUT_OF_RANGE, CATMULL_CLARK(desc.extraordinary = 1));
+    SCHEME(PARAMETER_OUT_OF_RANGE, desc.extraordinary = -1);
     SCHEME(PARAMETER_OUT_OF_RANGE, LOOP(desc.degree = 3));
     SCHEME(PARAMETER_OUT_OF_RANGE, BILINEAR(FRACTION(desc.w, 1, 32)));
     SCHEME(PARAMETER_OUT_OF_RANGE, CATMULL_CLARK((desc.passes = passes, desc.pass_count = 1)));

@@ -160,6 +160,16 @@ static void primal_options_reach_the_scheme()
     desc.loop_weights = CARVEL_LOOP_WEIGHTS_WARREN;
     /* The two agree at valence 3. */
     CHECK(first(desc) == loop);
+    const carvel::SchemeDesc three_point = {CARVEL_SCHEME_THREE_POINT};
+    carvel::SchemeDesc tuned = three_point;
+    tuned.extraordinary = CARVEL_EXTRAORDINARY_TUNED;
+    /* The first step that leaves a triangle among quads is the second one. */
+    const auto third = [&](const carvel::SchemeDesc &by) {
+        return carvel::refine(mesh, carvel::Scheme::create(by), 3, points).positions;
+    };
+    CHECK(first(tuned) == first(three_point) && third(tuned) != third(three_point));
+    tuned.family = CARVEL_SCHEME_QUARTIC;
+    CHECK(THROWN(carvel::Scheme::create(tuned)) == CARVEL_STATUS_PARAMETER_OUT_OF_RANGE);
     desc = {CARVEL_SCHEME_CATMULL_CLARK};
     const std::vector<double> plain = first(desc);
     desc.triangle_rule = CARVEL_TRIANGLE_RULE_SMOOTH;

@@ -1,7 +1,7 @@
 //! The words that options take, and what they mean to the library and in files.
 
 use carvel::io::{BoundaryTag, CreasingTag, FaceVaryingTag, TriangleTag};
-use carvel::scheme::{Creasing, LoopWeights, TriangleRule};
+use carvel::scheme::{Creasing, Extraordinary, LoopWeights, TriangleRule};
 use carvel::{Boundary, CornerRule, FaceVaryingMode};
 use clap::ValueEnum;
 
@@ -90,6 +90,16 @@ pub(super) enum Beta {
     Warren,
 }
 
+/// Weights around faces that are no quads.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
+pub(super) enum Around {
+    /// Those of the scheme
+    #[default]
+    Default,
+    /// Those that keep curvature bounded and away from zero
+    Tuned,
+}
+
 /// Texture coordinates along seams.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
 pub(super) enum Uv {
@@ -174,6 +184,15 @@ impl From<TriangleTag> for Triangles {
         match tag {
             TriangleTag::CatmullClark => Self::CatmullClark,
             TriangleTag::Smooth => Self::Smooth,
+        }
+    }
+}
+
+impl From<Around> for Extraordinary {
+    fn from(around: Around) -> Self {
+        match around {
+            Around::Default => Self::Default,
+            Around::Tuned => Self::Tuned,
         }
     }
 }

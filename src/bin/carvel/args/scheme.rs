@@ -1,6 +1,6 @@
 //! The scheme: a name, the parameters that belong to it, and nothing else.
 
-use super::names::{Beta, Edges, Method, Name, Rule, Split, Triangles, Uv, spelled};
+use super::names::{Around, Beta, Edges, Method, Name, Rule, Split, Triangles, Uv, spelled};
 use super::owners::{AVERAGING, FEATURED, refuse_strangers};
 use crate::exit::{Doing, Failure};
 use carvel::io::SchemeTags;
@@ -47,6 +47,10 @@ pub struct SchemeArgs {
     /// For loop: the weights at vertices of other than six faces [default: loop].
     #[arg(long, value_enum, value_name = "WEIGHTS")]
     loop_weights: Option<Beta>,
+    /// For three-point with w = 1/32: the weights around faces that are no quads, from the
+    /// second step on [default: default].
+    #[arg(long, value_enum, value_name = "WEIGHTS")]
+    extraordinary: Option<Around>,
     /// Where texture coordinates are refined linearly, along seams and boundaries; for
     /// catmull-clark, loop and bilinear [default: what the file says, or corners-plus1].
     #[arg(long, value_enum, value_name = "MODE")]
@@ -113,19 +117,23 @@ impl SchemeArgs {
         let creasing = self.creasing.or(tags.creasing.map(Into::into)).unwrap_or_default();
         let triangles = self.triangle_rule.or(tags.triangles.map(Into::into)).unwrap_or_default();
         let beta = self.loop_weights.unwrap_or_default();
+        let around = self.extraordinary.unwrap_or_default();
         let uv = self.uv.or(tags.face_varying.map(Into::into)).unwrap_or_default();
         let scheme = preset
             .with_rule(rule.into())
             .with_boundary(boundary.into())
             .with_creasing(creasing.into())
             .with_triangle_rule(triangles.into())
-            .with_loop_weights(beta.into());
+            .with_loop_weights(beta.into())
+            .with_extraordinary(around.into())
+            .map_err(|e| Failure::from_error(&e, Doing::Asking))?;
         let options = [
             ("corner_rule", spelled(&rule), AVERAGING.contains(&self.scheme)),
             ("boundary", spelled(&boundary), true),
             ("creasing", spelled(&creasing), featured),
             ("triangle_rule", spelled(&triangles), self.scheme == Name::CatmullClark),
             ("loop_weights", spelled(&beta), self.scheme == Name::Loop),
+            ("extraordinary", spelled(&around), self.scheme == Name::ThreePoint),
             ("uv", spelled(&uv), featured),
         ];
         let asked = options.into_iter().filter(|(.., asked)| *asked);
@@ -169,7 +177,7 @@ impl SchemeArgs {
 
     /// Refuses options that belong to another scheme.
     fn refuse_strangers(&self) -> Result<(), Failure> {
-        let options: [(_, _, &[Name]); 9] = [
+        let options: [(_, _, &[Name]); 10] = [
             ("--w", self.w.is_some(), &[Name::ThreePoint]),
             ("--degree", self.degree.is_some(), &[Name::Bspline]),
             ("--split", self.split.is_some(), &[Name::Averaging]),
@@ -178,6 +186,7 @@ impl SchemeArgs {
             ("--creasing", self.creasing.is_some(), FEATURED),
             ("--triangle-rule", self.triangle_rule.is_some(), &[Name::CatmullClark]),
             ("--loop-weights", self.loop_weights.is_some(), &[Name::Loop]),
+            ("--extraordinary", self.extraordinary.is_some(), &[Name::ThreePoint]),
             ("--uv", self.uv.is_some(), FEATURED),
         ];
         refuse_strangers(self.scheme, &options)
