@@ -31,7 +31,8 @@ fn a_square_by_chaikin_exactly() {
 fn every_stationary_scheme_is_what_the_library_makes() {
     let bench = Bench::new();
     let control = [0.0, 0.0, 1.0, 2.5, -1.0, 0.5, 2.0, 0.0, 1.0, 3.0, 3.5, -2.0, 4.0, 1.0, 0.5];
-    let text: String = control.chunks(3).map(|p| format!("{};{};{}\n", p[0], p[1], p[2])).collect();
+    let line = |p: &[f64]| format!("{};{};{}\n", p[0], p[1], p[2]);
+    let text = control.chunks(3).map(line).collect::<Vec<_>>().concat();
     bench.put("in.csv", text);
     for name in ["four-point:1/16", "ternary-four-point", "b-spline:4", "hormann-sabin:5"] {
         for (option, ends) in [
@@ -66,8 +67,8 @@ fn numbers(csv: &[u8]) -> Vec<f64> {
 fn tension_keeps_a_circle() {
     let bench = Bench::new();
     let angle = |i: i32| std::f64::consts::TAU * f64::from(i) / 6.0;
-    let hexagon: String =
-        (0..6).map(|i| format!("{} {}\n", angle(i).cos(), angle(i).sin())).collect();
+    let line = |i: i32| format!("{} {}\n", angle(i).cos(), angle(i).sin());
+    let hexagon = (0..6).map(line).collect::<Vec<_>>().concat();
     bench.put("hexagon.txt", hexagon);
     for scheme in ["tension-four-point:1/2", "tension-four-point:.5,.5,.5,.5,.5,.5"] {
         bench.run(&format!("curve hexagon.txt -o out.csv --closed --scheme {scheme}")).ok();

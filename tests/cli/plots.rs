@@ -71,6 +71,15 @@ fn plots_have_names_and_places() {
     assert!(run.out_text().starts_with("<svg ") && run.out_text().trim_end().ends_with("</svg>"));
 }
 
+/// The picture of docs/paper.md is what its command draws.
+#[test]
+fn the_picture_of_the_page_is_up_to_date() {
+    let bench = Bench::new();
+    bench.run("analyse three-point:1/32 --range w --plot paper.svg").ok();
+    let kept = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/paper.svg");
+    assert!(bench.get("paper.svg") == std::fs::read(kept).unwrap(), "docs/paper.svg is not");
+}
+
 #[test]
 fn the_same_plot_twice_is_the_same_bytes() {
     let bench = Bench::new();
