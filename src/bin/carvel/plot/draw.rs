@@ -8,6 +8,7 @@ use super::figure::{Axes, Axis, Color, Figure, Mark, Panel, Part, equalised};
 use crate::preview::Image;
 use carvel::{Error, ErrorKind, Result};
 use plotters::coord::Shift;
+use plotters::coord::types::RangedCoordf64;
 use plotters::prelude::*;
 use plotters::style::{Color as _, FontStyle, register_font};
 use std::fmt::Display;
@@ -19,6 +20,9 @@ const SVG_GRID: u32 = 10;
 const PNG_GRID: u32 = 4;
 /// The name that both back ends know the font by.
 const FONT: &str = "sans-serif";
+/// The lines of a graph's grid, and its axes.
+const LINES: RGBColor = RGBColor(228, 228, 228);
+const AXES: RGBColor = RGBColor(90, 90, 90);
 /// The most pixels on a side.
 const LARGEST: u32 = 1 << 13;
 
@@ -133,47 +137,63 @@ fn draw<B: DrawingBackend>(panel: &Panel, area: &Area<B>, grid: u32) -> Result<(
     }
     let mut chart = builder.build_cartesian_2d(x[0]..x[1], y[0]..y[1]).map_err(failed)?;
     if let Axes::Graph { x, y } = panel.axes {
-        let (across, up) = (|value: &f64| label(x, *value), |value: &f64| label(y, *value));
-        let mut mesh = chart.configure_mesh();
-        mesh.x_labels(9).y_labels(7).x_desc(x.name()).y_desc(y.name());
-        mesh.x_label_formatter(&across).y_label_formatter(&up);
-        mesh.label_style((FONT, 11 * grid)).axis_desc_style((FONT, 12 * grid));
-        mesh.light_line_style(TRANSPARENT)
-            .bold_line_style(RGBColor(228, 228, 228).stroke_width(grid));
-        mesh.axis_style(RGBColor(90, 90, 90).stroke_width(grid)).set_all_tick_mark_size(4 * grid);
-        mesh.draw().map_err(failed)?;
+        draw_axes(&mut chart, [x, y], grid)?;
     }
-    for part in &panel.parts {
-        let (style, points) = (style(part, grid), finite(part));
-        let drawn = match part.mark {
-            Mark::Line(_) => chart.draw_series([PathElement::new(points, style)]),
-            Mark::Dots(radius) => {
-                let radius = (radius * f64::from(grid)).round();
-                let dot = |point| Circle::new(point, radius, style.color.filled());
-                chart.draw_series(points.into_iter().map(dot))
-            }
-            Mark::Face => {
-                let outline: Vec<_> = points.iter().chain(points.first()).copied().collect();
-                let inside = Polygon::new(points, rgb(part.color).filled());
-                chart.draw_series([inside]).map_err(failed)?;
-                let edge = rgb(part.color.map(|byte| byte / 2)).stroke_width(style.stroke_width);
-                chart.draw_series([PathElement::new(outline, edge)])
-            }
-        };
-        let drawn = drawn.map_err(failed)?;
-        if let Some(name) = &part.name {
-            drawn.label(name).legend(move |(x, y)| {
-                PathElement::new(vec![(x, y), (x + 18 * grid as i32, y)], style)
-            });
+    panel.parts.iter().try_for_each(|part| draw_part(&mut chart, part, grid))?;
+    let named = panel.parts.iter().any(|part| part.name.is_some());
+    if named { draw_key(&mut chart, grid) } else { Ok(()) }
+}
+
+type Chart<'a, B> = ChartContext<'a, B, Cartesian2d<RangedCoordf64, RangedCoordf64>>;
+
+fn draw_axes<B: DrawingBackend>(chart: &mut Chart<B>, [x, y]: [Axis; 2], grid: u32) -> Result<()> {
+    let (across, up) = (|value: &f64| label(x, *value), |value: &f64| label(y, *value));
+    let mut mesh = chart.configure_mesh();
+    mesh.x_labels(9).y_labels(7).x_desc(x.name()).y_desc(y.name());
+    mesh.x_label_formatter(&across).y_label_formatter(&up);
+    mesh.label_style((FONT, 11 * grid)).axis_desc_style((FONT, 12 * grid));
+    mesh.light_line_style(TRANSPARENT).bold_line_style(LINES.stroke_width(grid));
+    mesh.axis_style(AXES.stroke_width(grid)).set_all_tick_mark_size(4 * grid);
+    mesh.draw().map_err(failed)
+}
+
+fn draw_part<'a, B: DrawingBackend + 'a>(
+    chart: &mut Chart<'a, B>,
+    part: &Part,
+    grid: u32,
+) -> Result<()> {
+    let (style, points) = (style(part, grid), finite(part));
+    let drawn = match part.mark {
+        Mark::Line(_) => chart.draw_series([PathElement::new(points, style)]),
+        Mark::Dots(radius) => {
+            let radius = (radius * f64::from(grid)).round();
+            let dot = |point| Circle::new(point, radius, style.color.filled());
+            chart.draw_series(points.into_iter().map(dot))
         }
-    }
-    if panel.parts.iter().any(|part| part.name.is_some()) {
-        let mut key = chart.configure_series_labels();
-        key.label_font((FONT, 11 * grid)).legend_area_size(26 * grid).margin(6 * grid);
-        key.position(SeriesLabelPosition::UpperMiddle).background_style(WHITE.mix(0.8));
-        key.draw().map_err(failed)?;
+        Mark::Face => {
+            let outline: Vec<_> = points.iter().chain(points.first()).copied().collect();
+            let inside = Polygon::new(points, style.color.filled());
+            chart.draw_series([inside]).map_err(failed)?;
+            let edge = rgb(part.color.map(|byte| byte / 2)).stroke_width(style.stroke_width);
+            chart.draw_series([PathElement::new(outline, edge)])
+        }
+    };
+    let drawn = drawn.map_err(failed)?;
+    if let Some(name) = &part.name {
+        let wide = 18 * grid as i32;
+        drawn
+            .label(name)
+            .legend(move |(x, y)| PathElement::new(vec![(x, y), (x + wide, y)], style));
     }
     Ok(())
+}
+
+/// The key goes where graphs of even functions and spectra leave room.
+fn draw_key<'a, B: DrawingBackend + 'a>(chart: &mut Chart<'a, B>, grid: u32) -> Result<()> {
+    let mut key = chart.configure_series_labels();
+    key.label_font((FONT, 11 * grid)).legend_area_size(26 * grid).margin(6 * grid);
+    key.position(SeriesLabelPosition::UpperMiddle).background_style(WHITE.mix(0.8));
+    key.draw().map_err(failed)
 }
 
 /// The number beside a tick; none between those that count.
