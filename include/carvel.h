@@ -103,6 +103,8 @@
  *   carvel_refiner    one-shot: faces and values of level n
  *   carvel_hierarchy  all levels, kept: values again and again, lineage
  *   carvel_stencils   rows of weights: the cheapest values of a fixed topology
+ *   carvel_mask       a scheme of polygons, and what is proved of it
+ *   (analysis)        how smooth a scheme's surfaces are around a feature
  *
  * Each is made by a _create function, which hands it over to the caller, and
  * given back by its _destroy function; NULL may be destroyed. An object may be
@@ -163,7 +165,7 @@
  *            its boundary is rounded off anew. The surface is the one that more
  *            levels at once give, numbered otherwise.
  *
- * Threads    A mesh, scheme, hierarchy, context or stencil table may be used by any
+ * Threads    A mesh, scheme, hierarchy, context, stencil table or mask may be used by any
  *            number of threads at once. A refiner serves one call at a time and answers
  *            CARVEL_STATUS_BUSY to another. An error belongs to one thread at
  *            a time. There is no global state that a caller could see, no
@@ -1636,6 +1638,241 @@ CARVEL_API carvel_status carvel_stencils_save(const carvel_stencils *stencils,
  * OUT_OF_RESOURCES. */
 CARVEL_API carvel_status carvel_stencils_load(const char *path, carvel_stencils **out,
                                               carvel_error *error);
+
+/* ==========================================================================
+ * carvel_mask: a scheme of polygons
+ *
+ * The mask of a stationary scheme of arity m: new point i is the sum of a(i - m j) times
+ * old point j. It is exact; points are float or double, of any width. Immutable and
+ * shared freely.
+ * ========================================================================== */
+
+typedef struct carvel_mask carvel_mask;
+
+/* Whether a polygon is closed, and what a step does at the ends of an open one. */
+enum carvel_ends {
+    /* The last point is followed by the first. One point at least. */
+    CARVEL_ENDS_CLOSED = 0,
+    /* New points whose rule reaches beyond the ends are dropped. */
+    CARVEL_ENDS_DROPPED = 1,
+    /* The ends stay: the polygon goes on by its images in them. For symmetric masks; two
+     * points at least. */
+    CARVEL_ENDS_KEPT = 2,
+    /* The same, the first and the last point being half an interval away from their
+     * neighbours: what a step with KEPT makes where new points do not fall on old ones.
+     * Three points at least. */
+    CARVEL_ENDS_ANCHORED = 3
+};
+
+/* Where new points lie, by the shift tau of a mask. */
+enum carvel_parametrisation {
+    /* tau is an integer: on old points, and between them. */
+    CARVEL_PARAMETRISATION_PRIMAL = 0,
+    /* tau is an odd multiple of 1/2: on both sides of old points. */
+    CARVEL_PARAMETRISATION_DUAL = 1,
+    CARVEL_PARAMETRISATION_OTHER = 2
+};
+
+/* The size of a refined polygon. */
+typedef struct carvel_polygon_counts {
+    uint32_t struct_size;
+    /* One of enum carvel_ends: those of the result, to go on from. */
+    int32_t ends;
+    uint64_t points;
+} carvel_polygon_counts;
+
+/* What is known of a mask. Proofs are in rational arithmetic, or with every rounding
+ * counted. A fraction whose terms do not fit 64 bits is 0/0. */
+typedef struct carvel_mask_analysis {
+    uint32_t struct_size;
+    /* New points for each old one. */
+    uint32_t arity;
+    /* The index of the first coefficient. */
+    int64_t offset;
+    /* The largest k for which the limit is proved C^k; -1 if it is not proved to be
+     * continuous. */
+    int32_t continuity;
+    /* One of enum carvel_parametrisation. */
+    int32_t parametrisation;
+    /* 1 if the mask reads the same from both ends. */
+    int32_t is_symmetric;
+    /* 1 if old points are kept. */
+    int32_t is_interpolating;
+    /* The k of the best proof by contractivity, -1 for none: the norm of the
+     * `proof_power`-th power of the scheme of differences is `proof_norm` < 1. */
+    int32_t proof_continuity;
+    uint32_t proof_power;
+    carvel_fraction proof_norm;
+    /* Bounds on the Hoelder exponent: for all alpha below it the limit is C^alpha. */
+    double holder_low;
+    double holder_high;
+    /* The width of the limit function's support, in intervals between control points. */
+    carvel_fraction support;
+    /* The shift of the parametrisation: new point i belongs to (i - tau)/arity. */
+    carvel_fraction tau;
+    /* Factors 1 + z + ... + z^(arity-1) of the symbol. */
+    uint32_t smoothing_factors;
+    /* Polynomials up to this degree are limits of some polygon, */
+    uint32_t generation_degree;
+    /* and up to this one, of their own values. */
+    uint32_t reproduction_degree;
+    /* 0. */
+    uint32_t reserved;
+} carvel_mask_analysis;
+
+/* Sets every field to its default: struct_size is sizeof the struct.
+ * Errors: NULL_POINTER, MISALIGNED, STRUCT_SIZE. */
+CARVEL_API carvel_status carvel_polygon_counts_init(carvel_polygon_counts *counts,
+                                                    uint32_t struct_size);
+CARVEL_API carvel_status carvel_mask_analysis_init(carvel_mask_analysis *analysis,
+                                                   uint32_t struct_size);
+
+/* Makes a mask.
+ * text: UTF-8: a name of the catalogue with its parameters, such as "three-point:1/32"
+ * (docs/curves.md lists all), or coefficients such as "1/4,3/4,3/4,1/4" or "[1,3,3,1]/4",
+ * whose middle is then at 0 or -1/2.
+ * arity: that of coefficients, 2 to 64; 0 for 2, and for a name.
+ * Errors: NULL_POINTER, MISALIGNED; INVALID_NUMBER for an unknown name and for what is no
+ * number; PARAMETER_OUT_OF_RANGE for an arity, a parameter, or coefficients that do not
+ * sum to 1 for each residue; TOO_LARGE for more than 1024 coefficients or long ones. */
+CARVEL_API carvel_status carvel_mask_create(const char *text, uint32_t arity,
+                                            carvel_mask **out, carvel_error *error);
+
+/* Destroys a mask; NULL is allowed. */
+CARVEL_API void carvel_mask_destroy(carvel_mask *mask);
+
+/* The coefficients, that of the lowest index first, in lowest terms. With capacity 0
+ * `out` may be NULL and only `count`, which may be NULL, is written.
+ * Errors: NULL_POINTER, MISALIGNED, OVERLAP, BUFFER_TOO_SMALL; TOO_LARGE for one that does
+ * not fit 64 bits. */
+CARVEL_API carvel_status carvel_mask_coefficients(const carvel_mask *mask,
+                                                  carvel_fraction *out, uint64_t capacity,
+                                                  uint64_t *count, carvel_error *error);
+
+/* Makes the scheme on meshes whose regular rule is the mask's tensor square: a dual or
+ * primal split and smoothing passes, with the defaults of carvel_scheme_desc otherwise.
+ * Errors: NULL_POINTER, MISALIGNED; UNSUPPORTED, with the reason, for a mask that is no
+ * split with passes; PARAMETER_OUT_OF_RANGE for passes beyond those of carvel_scheme_desc. */
+CARVEL_API carvel_status carvel_mask_scheme(const carvel_mask *mask, carvel_scheme **out,
+                                            carvel_error *error);
+
+/* Analyses a mask; analysis->struct_size must be set. Milliseconds for usual masks,
+ * seconds for long ones.
+ * Errors: NULL_POINTER, MISALIGNED, STRUCT_SIZE, CANCELLED. */
+CARVEL_API carvel_status carvel_mask_analyse(const carvel_mask *mask,
+                                             const carvel_context *context,
+                                             carvel_mask_analysis *analysis,
+                                             carvel_error *error);
+
+/* The points, and the ends, that some steps, 64 at most, make of a polygon of so many
+ * points; counts->struct_size must be set. No cost.
+ * ends: one of enum carvel_ends.
+ * Errors: NULL_POINTER, MISALIGNED, STRUCT_SIZE; PARAMETER_OUT_OF_RANGE for ends or
+ * steps; LENGTH_MISMATCH for too few points; UNSUPPORTED for ends that stay under a mask
+ * that is not symmetric; TOO_LARGE. */
+CARVEL_API carvel_status carvel_mask_counts(const carvel_mask *mask, int32_t ends,
+                                            uint64_t points, uint32_t steps,
+                                            carvel_polygon_counts *counts,
+                                            carvel_error *error);
+
+/* Refines a polygon, `steps` times: a record for every point in, and out, of the same
+ * width, as many as carvel_mask_counts says. Some nanoseconds for each point, and twice
+ * the memory of the result on the way.
+ * Errors: as carvel_mask_counts; INVALID_STRIDE, OVERLAP, BUFFER_TOO_SMALL; LENGTH_MISMATCH
+ * for different widths; NOT_FINITE, OVERFLOW, naming the point; MEMORY_CEILING,
+ * OUT_OF_RESOURCES, CANCELLED. */
+CARVEL_API carvel_status carvel_mask_refine_f32(const carvel_mask *mask,
+                                                const carvel_context *context, int32_t ends,
+                                                uint32_t steps,
+                                                const carvel_const_values_f32 *points,
+                                                const carvel_values_f32 *out,
+                                                carvel_error *error);
+CARVEL_API carvel_status carvel_mask_refine_f64(const carvel_mask *mask,
+                                                const carvel_context *context, int32_t ends,
+                                                uint32_t steps,
+                                                const carvel_const_values_f64 *points,
+                                                const carvel_values_f64 *out,
+                                                carvel_error *error);
+
+/* ==========================================================================
+ * Analysis: how smooth a scheme's surfaces are around a feature
+ * ========================================================================== */
+
+/* Places where a mesh is not regular, with a number of faces. */
+enum carvel_feature {
+    /* A vertex of so many faces, or a face of so many sides. */
+    CARVEL_FEATURE_INTERIOR = 0,
+    /* A vertex on the boundary with so many faces. */
+    CARVEL_FEATURE_BOUNDARY = 1,
+    /* The same, interpolated. */
+    CARVEL_FEATURE_CORNER = 2,
+    /* Two creases that meet, half of the faces on either side. */
+    CARVEL_FEATURE_CREASE = 3,
+    /* A crease that ends. */
+    CARVEL_FEATURE_DART = 4
+};
+
+/* Whether there is a continuous tangent plane. */
+enum carvel_tangent {
+    /* Eigenvalues, which are computed, and characteristic map, which is sampled, are as
+     * they must be. */
+    CARVEL_TANGENT_CONTINUOUS = 0,
+    /* The map is not regular, or not injective, at some sample. */
+    CARVEL_TANGENT_FOLDED = 1,
+    /* The eigenvalues span no tangent plane. */
+    CARVEL_TANGENT_UNDEFINED = 2,
+    /* The feature is sharp on purpose. */
+    CARVEL_TANGENT_SHARP = 3
+};
+
+/* How the curvature behaves on the way to an interior feature. */
+enum carvel_curvature {
+    /* The feature is not interior, or the surface not C1. */
+    CARVEL_CURVATURE_NO_VERDICT = 0,
+    CARVEL_CURVATURE_VANISHING = 1,
+    CARVEL_CURVATURE_BOUNDED = 2,
+    /* It grows with the number of steps: a Jordan block. */
+    CARVEL_CURVATURE_GROWING = 3,
+    /* It grows like a power of the distance. */
+    CARVEL_CURVATURE_UNBOUNDED = 4
+};
+
+/* What is known of a scheme at a feature. */
+typedef struct carvel_feature_analysis {
+    uint32_t struct_size;
+    /* One of enum carvel_tangent. */
+    int32_t tangent;
+    /* One of enum carvel_curvature. */
+    int32_t curvature;
+    /* 1 if the samples of the characteristic map cover no point twice. */
+    int32_t is_injective;
+    /* The largest eigenvalue beside 1. */
+    double lambda;
+    /* The largest after those of the tangent plane. */
+    double mu;
+    /* The smallest Jacobian of the characteristic map over the mean size, and the number
+     * of samples; 0 without a map. */
+    double least_jacobian;
+    uint64_t sample_count;
+} carvel_feature_analysis;
+
+/* Sets every field to its default: struct_size is sizeof(carvel_feature_analysis).
+ * Errors: NULL_POINTER, MISALIGNED, STRUCT_SIZE. */
+CARVEL_API carvel_status carvel_feature_analysis_init(carvel_feature_analysis *analysis,
+                                                      uint32_t struct_size);
+
+/* Analyses a scheme at a feature; analysis->struct_size must be set. Eigenvalues are
+ * computed in double precision, and not to the same last bit on every processor: this
+ * is the one function whose results may differ there. Milliseconds for few faces.
+ * feature: one of enum carvel_feature.
+ * faces: up to 512 around an interior feature, 48 around others.
+ * Errors: NULL_POINTER, MISALIGNED, STRUCT_SIZE; PARAMETER_OUT_OF_RANGE for a feature or
+ * a number of faces; UNSUPPORTED for one that the scheme does not have;
+ * OUT_OF_RESOURCES. */
+CARVEL_API carvel_status carvel_scheme_analyse(const carvel_scheme *scheme, int32_t feature,
+                                               uint64_t faces,
+                                               carvel_feature_analysis *analysis,
+                                               carvel_error *error);
 
 #ifdef __cplusplus
 }

@@ -101,6 +101,9 @@ inline namespace CARVEL_HPP_STYLE {
 using Bytes = carvel_bytes;
 using Seconds = carvel_seconds;
 using Counts = carvel_counts;
+using FeatureAnalysis = carvel_feature_analysis;
+using MaskAnalysis = carvel_mask_analysis;
+using PolygonCounts = carvel_polygon_counts;
 using Element = carvel_element;
 using Fraction = carvel_fraction;
 using HistogramEntry = carvel_histogram_entry;
@@ -670,6 +673,7 @@ inline void destroy(carvel_channel *object) { carvel_channel_destroy(object); }
 inline void destroy(carvel_refiner *object) { carvel_refiner_destroy(object); }
 inline void destroy(carvel_hierarchy *object) { carvel_hierarchy_destroy(object); }
 inline void destroy(carvel_stencils *object) { carvel_stencils_destroy(object); }
+inline void destroy(carvel_mask *object) { carvel_mask_destroy(object); }
 
 /* The twins by type. */
 inline carvel_status refine(carvel_refiner *refiner, const carvel_context *context,
@@ -729,6 +733,22 @@ inline carvel_status csr(const carvel_stencils *stencils, std::uint64_t *offsets
                          std::uint64_t entries, carvel_error *error)
 {
     return carvel_stencils_csr_f64(stencils, offsets, rows, indices, weights, entries, error);
+}
+inline carvel_status refine(const carvel_mask *mask, const carvel_context *context,
+                            carvel_ends ends, std::uint32_t steps,
+                            const carvel_const_values_f32 *points, const carvel_values_f32 *out,
+                            carvel_error *error)
+{
+    return carvel_mask_refine_f32(mask, context, static_cast<std::int32_t>(ends), steps, points,
+                                  out, error);
+}
+inline carvel_status refine(const carvel_mask *mask, const carvel_context *context,
+                            carvel_ends ends, std::uint32_t steps,
+                            const carvel_const_values_f64 *points, const carvel_values_f64 *out,
+                            carvel_error *error)
+{
+    return carvel_mask_refine_f64(mask, context, static_cast<std::int32_t>(ends), steps, points,
+                                  out, error);
 }
 inline carvel_status interpolate(const carvel_hierarchy *hierarchy,
                                  const carvel_context *context, std::uint32_t level,
@@ -903,6 +923,16 @@ public:
     /* The faces of a mesh, ascending in its own order, that are holes. */
     Result<std::vector<std::uint32_t>> try_holes(const Mesh &mesh) const;
 
+    /* How smooth its surfaces are around a feature of so many faces. */
+    Result<FeatureAnalysis> try_analyse(carvel_feature feature, std::uint64_t faces) const
+    {
+        detail::Call call;
+        FeatureAnalysis analysis = detail::sized<FeatureAnalysis>();
+        call.status = carvel_scheme_analyse(get(), static_cast<std::int32_t>(feature), faces,
+                                            &analysis, call.error());
+        return call.result(analysis);
+    }
+
     /* The smoothing passes that the scheme comes down to, in lowest terms. */
     Result<std::vector<Fraction>> try_passes() const
     {
@@ -918,6 +948,10 @@ public:
 #if CARVEL_HPP_THROWS
     static Scheme create(const SchemeDesc &desc = {}) { return try_create(desc).value(); }
     std::vector<Fraction> passes() const { return try_passes().value(); }
+    FeatureAnalysis analyse(carvel_feature feature, std::uint64_t faces) const
+    {
+        return try_analyse(feature, faces).value();
+    }
     std::vector<std::uint32_t> holes(const Mesh &mesh) const { return try_holes(mesh).value(); }
 #endif
 };
@@ -2035,6 +2069,139 @@ private:
         call.status =
             detail::apply(verb, get(), detail::raw(context), &from, &to, call.error());
         return call.result();
+    }
+};
+
+/* ==========================================================================
+ * Mask: a scheme of polygons, and what is proved of it
+ * ========================================================================== */
+
+class Mask : public detail::Handle<carvel_mask, detail::destroy> {
+public:
+    using Handle::Handle;
+    /* Hands the object over to the caller. */
+    carvel_mask *release() noexcept { return object_.release(); }
+
+    /* A name of the catalogue, or coefficients of an arity. */
+    static Result<Mask> try_create(const char *text, std::uint32_t arity = 0)
+    {
+        detail::Call call;
+        carvel_mask *out = nullptr;
+        call.status = carvel_mask_create(text, arity, &out, call.error());
+        return call.result(Mask(out));
+    }
+
+    Result<std::vector<Fraction>> try_coefficients() const
+    {
+        detail::Call call;
+        std::vector<Fraction> out;
+        std::uint64_t count = 0;
+        call.status = carvel_mask_coefficients(get(), nullptr, 0, &count, call.error());
+        if (call.status == CARVEL_STATUS_OK && call.grow(out, count))
+            call.status =
+                carvel_mask_coefficients(get(), out.data(), count, nullptr, call.error());
+        return call.result(std::move(out));
+    }
+
+    /* The scheme on meshes whose regular rule is the mask's tensor square. */
+    Result<Scheme> try_scheme() const
+    {
+        detail::Call call;
+        carvel_scheme *out = nullptr;
+        call.status = carvel_mask_scheme(get(), &out, call.error());
+        return call.result(Scheme(out));
+    }
+
+    Result<MaskAnalysis> try_analyse(const Context *context = nullptr) const
+    {
+        detail::Call call;
+        MaskAnalysis analysis = detail::sized<MaskAnalysis>();
+        call.status = carvel_mask_analyse(get(), detail::raw(context), &analysis, call.error());
+        return call.result(analysis);
+    }
+
+    /* Points and ends after some steps. */
+    Result<PolygonCounts> try_counts(carvel_ends ends, std::uint64_t points,
+                                     std::uint32_t steps) const
+    {
+        detail::Call call;
+        PolygonCounts counts = detail::sized<PolygonCounts>();
+        call.status = carvel_mask_counts(get(), static_cast<std::int32_t>(ends), points, steps,
+                                         &counts, call.error());
+        return call.result(counts);
+    }
+
+    /* A refined polygon, into your buffer or as a vector. Takes what values() takes, or
+     * what values(), rows() and columns() give. */
+    template <class V, class O>
+    Result<void> try_refine_into(carvel_ends ends, std::uint32_t steps, const V &points, O &&out,
+                                 const Context *context = nullptr) const
+    {
+        const ConstValues from = values(points);
+        const Values to = values(out);
+        detail::Call call;
+        call.status =
+            detail::refine(get(), detail::raw(context), ends, steps, &from, &to, call.error());
+        return call.result();
+    }
+    template <class V>
+    auto try_refine(carvel_ends ends, std::uint32_t steps, const V &points,
+                    const Context *context = nullptr) const
+    {
+        const ConstValues from = values(points);
+        return refined(ends, steps, from, context);
+    }
+
+#if CARVEL_HPP_THROWS
+    static Mask create(const char *text, std::uint32_t arity = 0)
+    {
+        return try_create(text, arity).value();
+    }
+    std::vector<Fraction> coefficients() const { return try_coefficients().value(); }
+    Scheme scheme() const { return try_scheme().value(); }
+    MaskAnalysis analyse(const Context *context = nullptr) const
+    {
+        return try_analyse(context).value();
+    }
+    PolygonCounts counts(carvel_ends ends, std::uint64_t points, std::uint32_t steps) const
+    {
+        return try_counts(ends, points, steps).value();
+    }
+    template <class V, class O>
+    void refine_into(carvel_ends ends, std::uint32_t steps, const V &points, O &&out,
+                     const Context *context = nullptr) const
+    {
+        try_refine_into(ends, steps, points, out, context).value();
+    }
+    template <class V>
+    auto refine(carvel_ends ends, std::uint32_t steps, const V &points,
+                const Context *context = nullptr) const
+    {
+        return try_refine(ends, steps, points, context).value();
+    }
+#endif
+
+private:
+    template <class T>
+    Result<std::vector<T>> refined(carvel_ends ends, std::uint32_t steps,
+                                   const ConstValues<T> &from, const Context *context) const
+    {
+        const Result<PolygonCounts> counts = try_counts(ends, from.count, steps);
+        if (!counts)
+            return counts.error();
+        detail::Call call;
+        std::vector<T> out;
+        /* What the library would refuse is refused before a vector is made. */
+        const Values<T> nowhere(nullptr, 0, from.width);
+        call.status = detail::refine(get(), detail::raw(context), ends, steps, &from, &nowhere,
+                                     call.error());
+        if (call.status == CARVEL_STATUS_BUFFER_TOO_SMALL &&
+            call.grow(out, counts->points, from.width)) {
+            const Values<T> to(out.data(), counts->points, from.width);
+            call.status = detail::refine(get(), detail::raw(context), ends, steps, &from, &to,
+                                         call.error());
+        }
+        return call.result(std::move(out));
     }
 };
 

@@ -19,12 +19,14 @@
 // Names and contracts are those of the header.
 #![allow(non_camel_case_types, missing_docs, clippy::missing_safety_doc)]
 
+mod analysis;
 mod buffer;
 mod channel;
 mod context;
 mod error;
 mod guard;
 mod hierarchy;
+mod mask;
 mod mesh;
 mod mesh_desc;
 mod object;
@@ -37,10 +39,12 @@ mod stencils;
 mod values;
 mod versioned;
 
+pub use analysis::*;
 pub use channel::*;
 pub use context::*;
 pub use error::*;
 pub use hierarchy::*;
+pub use mask::*;
 pub use mesh::*;
 pub use mesh_desc::*;
 pub use predict::*;

@@ -161,19 +161,35 @@ fn fixed_vector(context: &Context, mut matrix: Matrix) -> Result<Vec<Rational>> 
 /// # Errors
 /// As [`limit_stencil`]; [`ErrorKind::TooLarge`] for more than 2²⁰ values.
 pub fn sample_limit(context: &Context, mask: &Mask, levels: u32) -> Result<(i64, Vec<Rational>)> {
+    sample_derivative(context, mask, 0, levels)
+}
+
+/// The same for the `derivative`-th derivative of φ, which is 0 at the ends of its support.
+///
+/// # Errors
+/// As [`sample_limit`].
+pub fn sample_derivative(
+    context: &Context,
+    mask: &Mask,
+    derivative: usize,
+    levels: u32,
+) -> Result<(i64, Vec<Rational>)> {
     let m = mask.arity();
     let width = (mask.coefficients().len() - 1).div_ceil(m - 1) + 1;
-    let count = m.checked_pow(levels).and_then(|n| n.checked_mul(width));
+    let scale = m.checked_pow(levels);
+    let count = scale.and_then(|n| n.checked_mul(width));
     if count.is_none_or(|count| count > MOST_VALUES) {
         let message = format!("level {levels}: more than {MOST_VALUES} values");
         return Err(Error::new(ErrorKind::TooLarge, message));
     }
-    let mut values = values_at(context, m, mask.symbol(), &Rational::zero())?;
+    let (difference, psi) = derived(mask, derivative)?;
+    let mut values = values_at(context, m, &psi, &Rational::zero())?;
     for level in 0..levels {
         context.check_cancelled()?;
         // φ(i/mᵏ⁺¹) = Σ aₗ φ(i/mᵏ − l): the product with the mask spread out to mᵏ.
-        values = &spread(mask.symbol(), m.pow(level)) * &values;
+        values = &spread(&psi, m.pow(level)) * &values;
     }
+    values = &spread(&difference, m.pow(levels)) * &values;
     Ok((values.lowest(), values.coefficients().to_vec()))
 }
 

@@ -91,18 +91,31 @@ impl Mask {
         Self::new(arity, offset, coefficients)
     }
 
-    /// Reads coefficients separated by commas, such as `1/4,3/4,3/4,1/4`; without an
-    /// offset the mask is centred.
+    /// Reads coefficients separated by commas, such as `1/4,3/4,3/4,1/4` or, over one
+    /// denominator, `[1,3,3,1]/4`; without an offset the mask is centred. If all but the last are
+    /// integers, which alone are no mask, its denominator is that of all: `1,3,3,1/4`.
     ///
     /// # Errors
     /// [`ErrorKind::InvalidText`] for a coefficient that is no number; as [`Mask::new`].
     pub fn parse(text: &str, arity: usize, offset: Option<i64>) -> Result<Self> {
-        check_length(text.split(',').count())?;
-        let coefficients = text.split(',').map(rational::parse).collect::<Result<Vec<_>>>()?;
-        match offset {
-            Some(offset) => Self::new(arity, offset, coefficients),
-            None => Self::centred(arity, coefficients),
+        let (list, over) = common_denominator(text)?;
+        check_length(list.split(',').count())?;
+        let mut coefficients = list.split(',').map(rational::parse).collect::<Result<Vec<_>>>()?;
+        for coefficient in &mut coefficients {
+            *coefficient /= &over;
         }
+        let offset = offset.unwrap_or(-(coefficients.len() as i64 / 2));
+        // Integers and one fraction break the sum rule, unless its denominator is that of all.
+        if let Some((last, others)) = coefficients.split_last_mut()
+            && !text.contains('[')
+            && others.iter().all(Rational::is_integer)
+        {
+            let shared = Rational::from(last.denom().clone());
+            for other in others {
+                *other /= &shared;
+            }
+        }
+        Self::new(arity, offset, coefficients)
     }
 
     pub(crate) fn from_symbol(arity: usize, symbol: Laurent) -> Result<Self> {
@@ -197,6 +210,22 @@ impl FromStr for Mask {
     }
 }
 
+/// The list in `[1,3,3,1]/4` and its denominator; a list without brackets as it is.
+fn common_denominator(text: &str) -> Result<(&str, Rational)> {
+    let Some(inside) = text.trim().strip_prefix('[') else { return Ok((text, Rational::one())) };
+    let split = inside.split_once(']').map(|(list, rest)| (list, rest.trim()));
+    let denominator = |rest: &str| match rest {
+        "" => Some(Rational::one()),
+        _ => rational::parse(rest.strip_prefix('/')?).ok().filter(|d| !d.is_zero()),
+    };
+    let found = split.and_then(|(list, rest)| Some((list, denominator(rest)?)));
+    found.ok_or_else(|| {
+        let shown: String = text.chars().take(40).collect();
+        let message = format!("'{shown}' is not a list such as [1,3,3,1]/4");
+        Error::new(ErrorKind::InvalidText, message)
+    })
+}
+
 pub(crate) fn check_length(length: usize) -> Result<()> {
     if length == 0 {
         return Err(out_of_range("a mask without coefficients".to_owned()));
@@ -234,12 +263,26 @@ mod tests {
     }
 
     #[test]
+    fn one_denominator_for_all() {
+        let mask: Mask = "1/4,3/4,3/4,1/4".parse().unwrap();
+        for text in ["[1,3,3,1]/4", " [ 1, 3,3,1 ] / 4", "1,3,3,1/4", "[1/2,3/2,3/2,1/2]/2"] {
+            assert_eq!(text.parse::<Mask>().unwrap(), mask, "{text}");
+        }
+        let plain = Mask::parse("1,1", 2, None).unwrap();
+        assert_eq!(plain.coefficients(), [ratio(1, 1), ratio(1, 1)]);
+    }
+
+    #[test]
     fn what_is_no_mask_is_refused() {
         let kind = |text: &str, arity| Mask::parse(text, arity, None).unwrap_err().kind();
         assert_eq!(kind("", 2), ErrorKind::InvalidText);
         assert_eq!(kind("1/2,,1/2", 2), ErrorKind::InvalidText);
         assert_eq!(kind("1,1e400", 2), ErrorKind::InvalidText);
         assert_eq!(kind("1/2,1,1/3", 2), ErrorKind::ParameterOutOfRange);
+        for text in ["[1,3,3,1", "[1,3,3,1]4", "[1,3,3,1]/0", "[1,3,3,1]/x", "[]/2", "[1,1]]"] {
+            assert_eq!(kind(text, 2), ErrorKind::InvalidText, "{text}");
+        }
+        assert_eq!(kind("1,3,3,1/5", 2), ErrorKind::ParameterOutOfRange);
         assert_eq!(kind("0", 2), ErrorKind::ParameterOutOfRange);
         for arity in [0, 1, 65] {
             assert_eq!(kind("1,1", arity), ErrorKind::ParameterOutOfRange);

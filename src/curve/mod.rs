@@ -37,7 +37,7 @@ pub use ends::Ends;
 pub use factor::{CurveSplit, Factors};
 pub use grid::{Grid, GridMask};
 pub use laurent::Laurent;
-pub use limit::{LimitStencil, limit_stencil, sample_limit};
+pub use limit::{LimitStencil, limit_stencil, sample_derivative, sample_limit};
 pub use mask::{LARGEST_ARITY, MOST_COEFFICIENTS, Mask, Parametrisation, Tap};
 pub use rational::Rational;
 pub use refine::Polygon;

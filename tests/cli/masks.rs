@@ -30,6 +30,48 @@ fn the_papers_mask_in_json() {
     }
     let same = bench.run("analyse --curve three-point:1/32 --json").ok().json();
     assert_eq!(same, found);
+    for other in ["--scheme three-point:1/32", "three-point:1/32", "--mask 1,9,22,22,9,1/32"] {
+        assert_eq!(bench.run(&format!("analyse {other} --json")).ok().json(), found, "{other}");
+    }
+}
+
+/// A mask of the averaging family is its scheme on meshes, whichever way it is given.
+#[test]
+fn masks_are_schemes_on_meshes() {
+    let bench = Bench::new();
+    bench.put("cube.obj", super::bench::CUBE);
+    for (mask, scheme) in [
+        ("--mask 1,9,22,22,9,1/32", "--scheme three-point"),
+        ("--scheme three-point:1/64", "--scheme three-point --w 1/64"),
+        ("--mask [1,4,6,4,1]/8", "--scheme bspline --degree 3"),
+        ("--scheme dyn-floater-hormann", "--scheme averaging --split dual --passes 0,7/2"),
+        (
+            "--scheme four-point:1/16 --corner-rule average",
+            "--scheme averaging --split primal --passes 0,3 --corner-rule average",
+        ),
+    ] {
+        bench.run(&format!("subdivide cube.obj -o a.obj {mask}")).ok();
+        bench.run(&format!("subdivide cube.obj -o b.obj {scheme}")).ok();
+        assert!(bench.get("a.obj") == bench.get("b.obj"), "{mask} and {scheme}");
+    }
+    let json =
+        bench.run("subdivide cube.obj -o a.obj --mask [1,9,22,22,9,1]/32 --json").ok().json();
+    assert_eq!(json["scheme"]["split"], "dual");
+    assert_eq!(json["scheme"]["passes"], json!(["1/2"]));
+    for (options, words) in [
+        ("--mask [1,2,2,1]/3", "[1,3,3,1]/4 is no factor"),
+        ("--mask [2,3,2,1]/4", "it is not symmetric"),
+        ("--scheme ternary-four-point", "its arity is 3, not 2"),
+        ("--scheme weissman", "passes are not rational"),
+        ("--scheme tension-four-point", "invalid value"),
+        ("--mask [1,3,3,1]/4 --passes 0", "follow from it"),
+        ("--mask [1,3,3,1]/4 --w 1/32", "--w belongs to --scheme three-point"),
+        ("--mask 1,2", "sum rule"),
+    ] {
+        let run = bench.run(&format!("subdivide cube.obj -o none.obj {options}"));
+        assert!(run.code == 2 && run.err.contains(words), "{options}: {}", run.err);
+    }
+    assert!(!bench.files().contains(&"none.obj".to_owned()));
 }
 
 #[test]
@@ -69,6 +111,19 @@ fn mistakes_are_told_in_one_line() {
         ("--curve b-spline --range degree", "free parameter"),
         ("--curve chaikin --mask 1,1", "cannot be used"),
         ("--curve chaikin --scheme loop", "cannot be used"),
+        ("--curve chakin", "'chaikin' is near it"),
+        ("--scheme four-pint:1/16", "invalid value"),
+        ("--scheme four-point:1/16 --valence 5", "mean nothing to a mask"),
+        ("four-point --boundary edge", "mean nothing to a mask"),
+        ("three-point --range w", "--range needs a name"),
+        ("--mask 1,1 --range w", "--range needs a name"),
+        ("chaikin --mask 1,1", "cannot be used"),
+        ("--mask 1,1 --valence 5", "cannot be used"),
+        ("--mask 1/0,1", "'1/0'"),
+        ("--mask 1,nan", "'nan'"),
+        ("--mask 1,1 --arity 0", "arity 0"),
+        ("--mask 1,1 --arity 65", "arity 65"),
+        ("--mask [1,3,3,1]/0", "is not a list"),
         ("--arity 3", "--mask"),
     ] {
         let run = bench.run(&format!("analyse {arguments}"));

@@ -16,7 +16,7 @@ fn no_arguments_explain_the_command() {
 #[test]
 fn help_documents_the_exit_codes_and_defaults() {
     let bench = Bench::new();
-    for args in ["--help", "subdivide --help", "info --help", "preview --help"] {
+    for args in ["--help", "subdivide --help", "info --help", "preview --help", "curve --help"] {
         let run = bench.run(args).ok();
         for code in 0..=8 {
             assert!(run.out_text().contains(&format!("\n  {code}  ")), "{args}: {code}");

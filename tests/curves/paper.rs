@@ -1,9 +1,12 @@
 //! The founding paper's scheme and the errata, by computation.
 
-use carvel::Context;
 use carvel::analysis::mask::{Analysis, Bivariate, Certificate, Effort, grid_contractivity};
 use carvel::curve::rational::ratio;
-use carvel::curve::{Ends, GridMask, Laurent, LimitStencil, Mask, Polygon, Tap, limit_stencil};
+use carvel::curve::{
+    CurveSplit, Ends, Factors, GridMask, Laurent, LimitStencil, Mask, Polygon, Rational, Tap,
+    limit_stencil,
+};
+use carvel::{Context, Fraction, Mesh, Refiner, Scheme, Task};
 
 use crate::support::{list, named, q};
 
@@ -125,4 +128,51 @@ fn the_ten_belongs_to_the_quartic_b_spline() {
     assert_eq!(named("three-point:1/16"), named("b-spline:4"));
     equation_4(&named("three-point:1/16").taps(0), "1/16 10/16 5/16");
     equation_4(&named("three-point:1/32").taps(0), "1/32 22/32 9/32");
+}
+
+/// Item 4: vertex, two edge midpoints and centroid, and their mean.
+#[test]
+fn the_words_are_the_quadratic_scheme() {
+    // A face's corners in order, each as weights of the four.
+    let corners = [0, 1, 2, 3].map(|i| [0, 1, 2, 3].map(|j| ratio(i64::from(i == j), 1)));
+    let sum = |of: &mut dyn Iterator<Item = &Rational>| of.sum::<Rational>();
+    let mean = |list: &[usize]| {
+        let weight = |k: usize| sum(&mut list.iter().map(|&i| &corners[i][k]));
+        [0, 1, 2, 3].map(|k| weight(k) / ratio(list.len() as i64, 1))
+    };
+    let parts = [mean(&[0]), mean(&[0, 1]), mean(&[0, 3]), mean(&[0, 1, 2, 3])];
+    let words = [0, 1, 2, 3].map(|k| sum(&mut parts.iter().map(|part| &part[k])) / ratio(4, 1));
+    assert_eq!(words, [9, 3, 1, 3].map(|n| ratio(n, 16)));
+    // Corner by corner Chaikin's 3/4 and 1/4, once in either direction.
+    let chaikin = named("chaikin");
+    let taps: Vec<_> = chaikin.taps(0).into_iter().map(|tap| tap.weight).collect();
+    let product = |i: usize, j: usize| &taps[i] * &taps[j];
+    assert_eq!(words, [product(0, 0), product(0, 1), product(1, 1), product(1, 0)]);
+    let analysis = Analysis::of(&Context::serial(), &chaikin, Effort::default()).expect("done");
+    assert_eq!((analysis.continuity, analysis.holder.high), (Some(1), 2.0));
+    // The pass of one half is what is missing.
+    let half = Fraction::new(1, 2).expect("a fraction");
+    let split = |passes| Factors { split: CurveSplit::Dual, passes };
+    assert_eq!(Factors::of(&chaikin).expect("factors"), split(vec![]));
+    assert_eq!(Factors::of(&named("three-point:1/32")).expect("factors"), split(vec![half]));
+}
+
+/// The number of faces after some steps.
+fn faces(vertices: usize, quads: &[u32], steps: u32) -> usize {
+    let mesh = Mesh::from_polygons(vertices, &vec![4; quads.len() / 4], quads).expect("a mesh");
+    let scheme = Scheme::three_point(Fraction::new(1, 32).expect("w")).expect("a scheme");
+    let positions = vec![0.0; 3 * vertices];
+    let task = Task::new(&mesh, &scheme, steps, &positions);
+    Refiner::new().refine(&Context::serial(), &task).expect("refined").face_sizes.len()
+}
+
+/// Item 5: faces of the torus of the figures, and of a cube.
+#[test]
+fn faces_of_the_figures() {
+    let at = |i: u32, j: u32| 4 * (i % 4) + j % 4;
+    let quad = |i, j| [at(i, j), at(i + 1, j), at(i + 1, j + 1), at(i, j + 1)];
+    let torus: Vec<u32> = (0..16).flat_map(|k| quad(k / 4, k % 4)).collect();
+    assert_eq!([0, 1, 2, 3].map(|steps| faces(16, &torus, steps)), [16, 64, 256, 1024]);
+    let cube = [0, 1, 3, 2, 4, 6, 7, 5, 0, 4, 5, 1, 2, 3, 7, 6, 0, 2, 6, 4, 1, 5, 7, 3];
+    assert_eq!([1, 2].map(|steps| faces(8, &cube, steps)), [26, 98]);
 }

@@ -3,9 +3,11 @@
 use std::f64::consts::TAU;
 
 use carvel::Context;
-use carvel::analysis::mask::{Degrees, Response};
+use carvel::analysis::mask::{Degrees, FrequencyResponse, Response};
 use carvel::curve::rational::ratio;
-use carvel::curve::{Ends, Polygon, Rational, Tension, sample_limit};
+use carvel::curve::{
+    Ends, Polygon, Rational, Tension, limit_stencil, sample_derivative, sample_limit,
+};
 use num_traits::{One, Zero, pow};
 
 use crate::support::{named, q, schemes};
@@ -276,4 +278,51 @@ fn waves_shrink_as_the_splines_transform_says() {
     let gain = sum[0].hypot(sum[1]) / fine.len() as f64;
     let response = Response::of(&mask, 6.0).expect("a response");
     assert!((gain - response.gain).abs() < 1e-5, "{gain}, {response:?}");
+}
+
+/// Samples of the limit function's derivatives are the weights that limit stencils give to one
+/// control point.
+#[test]
+fn sampled_derivatives_are_those_of_stencils() {
+    for (name, derivatives) in
+        [("three-point:1/32", 3), ("b-spline:3", 3), ("b-spline:3,3", 2), ("four-point", 2)]
+    {
+        let mask = named(name);
+        let unit = (mask.arity() as i64).pow(2);
+        for derivative in 0..derivatives {
+            let sampled = sample_derivative(&Context::serial(), &mask, derivative, 2);
+            let (first, values) = sampled.expect("samples");
+            for i in first - 3..first + values.len() as i64 + 3 {
+                // The weight of the point at 0.
+                let at = limit_stencil(&Context::serial(), &mask, &ratio(i, unit), derivative);
+                let at = at.expect("a stencil");
+                let weight = usize::try_from(-at.first).ok().and_then(|k| at.weights.get(k));
+                let value = usize::try_from(i - first).ok().and_then(|k| values.get(k));
+                let zero = ratio(0, 1);
+                assert_eq!(
+                    value.unwrap_or(&zero),
+                    weight.unwrap_or(&zero),
+                    "{name}, derivative {derivative} at {i}/{unit}"
+                );
+            }
+        }
+    }
+}
+
+/// The limit function of a B-spline of degree d is a box convolved with itself d times.
+#[test]
+fn frequencies_of_b_splines_are_powers_of_sinc() {
+    for (name, degree, arity) in [("chaikin", 2, 2), ("b-spline:3", 3, 2), ("b-spline:4,3", 4, 3)] {
+        let response = FrequencyResponse::new(&named(name));
+        for i in 1..40 {
+            let omega = f64::from(i) * 0.17;
+            let sinc = |x: f64| (x / 2.0).sin() / (x / 2.0);
+            let limit = sinc(omega).abs().powi(degree + 1);
+            assert!((response.limit(omega) - limit).abs() < 1e-12, "{name} at {omega}");
+            let box_of_mask = (sinc(f64::from(arity) * omega) / sinc(omega)).abs();
+            let mask = box_of_mask.powi(degree + 1);
+            assert!((response.mask(omega) - mask).abs() < 1e-12, "{name} at {omega}");
+        }
+        assert!((response.mask(0.0) - 1.0).abs() < 1e-15, "{name}");
+    }
 }

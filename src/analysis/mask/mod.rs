@@ -40,5 +40,5 @@ pub use joint_radius::{Certificate, JointRadius};
 pub use range::{AffineFamily, End, ParameterRange};
 pub use report::{Analysis, Effort, Holder};
 pub use reproduction::Degrees;
-pub use response::Response;
+pub use response::{FrequencyResponse, Response};
 pub use sum_rules::{Smoothing, difference_symbol};

@@ -41,36 +41,40 @@ impl Response {
             let message = format!("{points} points per period: at least 2 are needed");
             return Err(Error::new(ErrorKind::ParameterOutOfRange, message));
         }
-        let symbol = Symbol::new(mask);
+        let symbol = FrequencyResponse::new(mask);
         let omega = TAU / points;
-        let gain = symbol.transform(omega);
-        let ripple = |n: i32| symbol.transform(omega + TAU * f64::from(n)).powi(2);
+        let gain = symbol.limit(omega);
+        let ripple = |n: i32| symbol.limit(omega + TAU * f64::from(n)).powi(2);
         let ripples: f64 = (1..=RIPPLES).map(|n| ripple(n) + ripple(-n)).sum();
         Ok(Self { gain, shrink: 1.0 - gain, artifact: ripples.sqrt() / gain })
     }
 }
 
-/// A symbol in doubles.
-struct Symbol {
+/// A mask as a filter, in double precision.
+#[derive(Debug, Clone)]
+pub struct FrequencyResponse {
     arity: f64,
     lowest: f64,
     coefficients: Vec<f64>,
 }
 
-impl Symbol {
-    fn new(mask: &Mask) -> Self {
+impl FrequencyResponse {
+    /// The filter of a mask.
+    pub fn new(mask: &Mask) -> Self {
         let coefficients = mask.coefficients().iter().map(to_f64).collect();
         Self { arity: mask.arity() as f64, lowest: mask.offset() as f64, coefficients }
     }
 
-    /// |φ̂(ω)|.
-    fn transform(&self, omega: f64) -> f64 {
-        let factor = |k: u32| self.magnitude(omega / libm::pow(self.arity, f64::from(k)));
+    /// |φ̂(ω)|: what is left of a wave of ω radians per control point in the limit. Costs 64
+    /// times as much as [`FrequencyResponse::mask`].
+    pub fn limit(&self, omega: f64) -> f64 {
+        let factor = |k: u32| self.mask(omega / libm::pow(self.arity, f64::from(k)));
         (1..=FACTORS).map(factor).product()
     }
 
-    /// |a(e^(−iω))|/m.
-    fn magnitude(&self, omega: f64) -> f64 {
+    /// |a(e^(−iω))|/m, by which a step multiplies a wave of ω radians per new point; 1 at ω = 0.
+    /// Costs two cosines for each coefficient.
+    pub fn mask(&self, omega: f64) -> f64 {
         let (mut re, mut im) = (0.0, 0.0);
         for (k, c) in self.coefficients.iter().enumerate() {
             let angle = omega * (self.lowest + k as f64);

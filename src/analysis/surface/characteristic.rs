@@ -26,6 +26,9 @@ type Point = [f64; 2];
 /// A sampled characteristic map.
 #[derive(Debug, Clone)]
 pub struct CharacteristicMap {
+    /// The natural configuration: faces of the control mesh, the ring's and those inside it, with
+    /// the eigenvectors of λ as vertices (Ball and Storry 1988).
+    pub control: Vec<Vec<Point>>,
     /// Faces of the sampling, as polygons in the plane: the ring, and what is inside.
     pub ring: Vec<Vec<Point>>,
     /// The faces inside the ring.
@@ -170,6 +173,7 @@ fn area(polygon: &[Point]) -> f64 {
 
 /// The refined faces of a model.
 struct Sampling {
+    control: Vec<Vec<Point>>,
     inside: Vec<Vec<Point>>,
     ring: Vec<Vec<Point>>,
     outline: Vec<Point>,
@@ -204,7 +208,9 @@ impl Sampling {
             faces.map(|face| polygon(mesh, refined, face)).collect::<Vec<_>>()
         };
         let outline = outline(mesh, refined, &parts);
-        Ok(Self { inside: of(Part::Inside), ring: of(Part::Ring), outline })
+        let control = inner.iter().chain(&ring);
+        let control = control.map(|&face| polygon(model.mesh(), points, face)).collect();
+        Ok(Self { control, inside: of(Part::Inside), ring: of(Part::Ring), outline })
     }
 
     fn measure(self) -> CharacteristicMap {
@@ -222,6 +228,7 @@ impl Sampling {
         let least = all.iter().fold(f64::INFINITY, |least, &j| least.min(j));
         let injective = is_simple(&self.outline);
         CharacteristicMap {
+            control: self.control,
             ring: self.ring,
             inside: self.inside,
             least_jacobian: if mean > 0.0 { least / mean } else { 0.0 },

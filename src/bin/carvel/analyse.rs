@@ -1,10 +1,9 @@
 //! The command `analyse`.
 
 use crate::args::{AnalyseArgs, Chosen};
-use crate::curve;
 use crate::exit::{Doing, Exit, Failure};
-use crate::report;
 use crate::session::Session;
+use crate::{mask, plot, report};
 use carvel::Scheme;
 use carvel::analysis::surface::{
     CharacteristicMap, Eigenvalue, Feature, LimitWeights, LocalMatrix, Smoothness, Spectrum,
@@ -13,29 +12,43 @@ use carvel::analysis::surface::{
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 
+/// Valences in one plot.
+const MOST_PLOTTED: usize = 12;
+
 /// Analyses a scheme at some features.
 pub fn run(args: &AnalyseArgs) -> Result<Exit, Failure> {
-    if args.mask.is_given() {
-        return curve::analyse(&args.mask, args.json, args.quiet);
+    if let Some(source) = args.mask_source()? {
+        return mask::analyse(args, source);
     }
     let chosen = args.choose()?;
+    let kind = args.plot.as_deref().map(plot::kind_of).transpose()?;
     let session = Session::new(1, None, args.quiet || args.json)?;
-    let valences = &args.valence.0;
+    let valences = args.valences();
+    if kind.is_some() && valences.len() > MOST_PLOTTED {
+        let message =
+            format!("a plot shows {MOST_PLOTTED} valences at most, not {}", valences.len());
+        return Err(Failure::usage(message));
+    }
     let mut found = Vec::new();
     for (done, &faces) in valences.iter().enumerate() {
         session.refuse_if_cancelled()?;
         session.console.phase("analysing", &chosen.name);
         session.console.part(done as f64 / valences.len() as f64);
-        let feature = args.feature.of(faces);
+        let feature = args.feature().of(faces);
         let analysis = Analysis::new(&chosen.scheme, feature);
         found.push(analysis.map_err(|e| Failure::from_error(&e, Doing::Asking))?);
+    }
+    if let (Some(path), Some(kind)) = (&args.plot, kind) {
+        let shown = found.iter().map(|a| (a.faces(), &a.spectrum, a.map.as_ref()));
+        let shown: Vec<_> = shown.collect();
+        plot::save(&session, path, kind, &plot::surface::figure(&shown))?;
     }
     session.console.clear();
     if args.json {
         let list = found.iter().map(|analysis| analysis.json(&chosen)).collect();
-        return report::print(&report::document(&Value::Array(list)));
+        return args.print(&report::document(&Value::Array(list)));
     }
-    report::print(&table(&chosen, &found))
+    args.print(&table(&chosen, &found))
 }
 
 /// All that is said about one feature.

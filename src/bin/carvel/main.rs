@@ -10,7 +10,9 @@
 //! | `input`, `places` | what is read, and where results go |
 //! | `faults` | mistakes in a mesh, as lines of its file |
 //! | `subdivide`, `info`, `picture`, `stencils`, `analyse` | the commands |
-//! | `curve` | masks of curves: a part of `analyse`, and `catalogue` |
+//! | `mask`, `catalogue` | masks of curves: a part of `analyse`, and what there is |
+//! | `curve` | polygons and grids: files, refinement |
+//! | `plot` | graphs, curves and maps as SVG and PNG |
 //! | `topology`, `matrix` | control meshes as asked for; stencil tables as files |
 //! | `refine`, `precise` | one refinement with all its data |
 //! | `carry`, `seams` | vertex data, and names of faces |
@@ -25,6 +27,7 @@ mod analyse;
 mod args;
 mod atomic;
 mod carry;
+mod catalogue;
 mod console;
 mod curve;
 mod exit;
@@ -34,10 +37,12 @@ mod info;
 mod input;
 mod interrupt;
 mod limit;
+mod mask;
 mod matrix;
 mod memory;
 mod picture;
 mod places;
+mod plot;
 mod precise;
 mod preview;
 mod records;
@@ -84,7 +89,8 @@ fn main() -> ExitCode {
         Some(Command::Preview(args)) => picture::run(args),
         Some(Command::Stencils(args)) => stencils::run(args),
         Some(Command::Analyse(args)) => analyse::run(args),
-        Some(Command::Catalogue(args)) => curve::catalogue(args),
+        Some(Command::Curve(args)) => curve::run(args),
+        Some(Command::Catalogue(args)) => catalogue::run(args),
     };
     exit.unwrap_or_else(|failure| Console::plain().failure(&failure)).into()
 }

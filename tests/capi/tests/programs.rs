@@ -69,6 +69,11 @@ fn stencil_tables_do_what_hierarchies_do() {
 }
 
 #[test]
+fn masks_answer_as_computed_by_hand() {
+    run_with_both("mask", &[]);
+}
+
+#[test]
 fn primal_schemes_and_tags_do_as_opensubdiv_says() {
     run_with_both("primal", &[]);
 }

@@ -1,10 +1,12 @@
 //! What can be asked of `carvel analyse`.
 
-use super::names::Name;
+use super::mask::MaskSource;
+use super::names::{SchemeName, SchemeParser};
 use super::{MaskArgs, SchemeArgs};
 use crate::exit;
 use carvel::analysis::surface::Feature;
 use clap::{Args, ValueEnum};
+use std::path::PathBuf;
 use std::str::FromStr;
 
 /// Options of `carvel analyse`.
@@ -12,20 +14,26 @@ use std::str::FromStr;
 #[command(after_help = exit::HELP)]
 pub struct AnalyseArgs {
     /// The scheme; the same as --scheme.
-    #[arg(value_enum, value_name = "SCHEME", conflicts_with = "scheme")]
-    name: Option<Name>,
-    /// Faces around a vertex, or sides of a face: numbers and ranges such as 3..8,12.
-    #[arg(long, value_name = "N,...", default_value = "3..12")]
-    pub valence: Valences,
-    /// Where.
-    #[arg(long, value_enum, default_value_t, value_name = "FEATURE")]
-    pub feature: FeatureName,
+    #[arg(value_parser = SchemeParser, value_name = "SCHEME",
+          conflicts_with_all = ["scheme", "mask"])]
+    name: Option<SchemeName>,
+    /// Faces around a vertex, or sides of a face: numbers and ranges such as 3..8,12
+    /// [default: 3..12].
+    #[arg(long, value_name = "N,...", conflicts_with = "mask")]
+    valence: Option<Valences>,
+    /// Where [default: interior].
+    #[arg(long, value_enum, value_name = "FEATURE", conflicts_with = "mask")]
+    feature: Option<FeatureName>,
     /// The scheme and its parameters.
     #[command(flatten)]
     scheme: SchemeArgs,
     /// A mask of curves and grids rather than a scheme.
     #[command(flatten)]
     pub mask: MaskArgs,
+    /// Also draw, as SVG or PNG: eigenvalues, natural configuration and characteristic map for
+    /// each valence; of a mask the limit function, its derivatives, frequencies and the ranges.
+    #[arg(long, value_name = "FILE")]
+    pub plot: Option<PathBuf>,
     /// Print JSON, with all eigenvalues and the weights of limits and tangents.
     #[arg(long, help_heading = "Run")]
     pub json: bool,
@@ -40,7 +48,59 @@ impl AnalyseArgs {
     /// # Errors
     /// A usage error, as of other commands; no scheme or two.
     pub fn choose(&self) -> Result<super::Chosen, exit::Failure> {
-        self.scheme.choose_named(self.name)
+        self.scheme.choose_named(self.name.as_ref())
+    }
+
+    /// Prints the table, unless the plot has the standard output.
+    ///
+    /// # Errors
+    /// An output error.
+    pub fn print(&self, text: &str) -> Result<exit::Exit, exit::Failure> {
+        if self.plot.as_deref().is_some_and(crate::places::is_stream) {
+            return Ok(exit::Exit::Success);
+        }
+        crate::report::print(text)
+    }
+
+    /// Numbers of faces.
+    pub fn valences(&self) -> Vec<usize> {
+        self.valence.as_ref().map_or_else(|| (3..=12).collect(), |valence| valence.0.clone())
+    }
+
+    /// Where.
+    pub fn feature(&self) -> FeatureName {
+        self.feature.unwrap_or_default()
+    }
+
+    /// The mask, if one is asked for rather than a scheme on meshes.
+    ///
+    /// # Errors
+    /// A usage error for an option of the other kind.
+    pub fn mask_source(&self) -> Result<Option<MaskSource<'_>>, exit::Failure> {
+        let MaskArgs { curve, arity, offset, range, .. } = &self.mask;
+        let positional = match &self.name {
+            Some(SchemeName::Mask(text)) => Some(text.as_str()),
+            _ => None,
+        };
+        let coefficients = self.scheme.mask.as_deref().map(|text| MaskSource::Coefficients {
+            text,
+            arity: arity.unwrap_or(2),
+            offset: *offset,
+        });
+        let named = curve.as_deref().or(positional).or(self.scheme.named_mask());
+        let source = coefficients.or(named.map(MaskSource::Named));
+        if source.is_none() && range.is_some() {
+            let message = "--range needs a name of the catalogue, such as --scheme four-point";
+            return Err(exit::Failure::usage(message));
+        }
+        let of_meshes =
+            self.valence.is_some() || self.feature.is_some() || self.scheme.has_options();
+        if source.is_some() && of_meshes {
+            let message =
+                "valence, feature and options of schemes on meshes mean nothing to a mask";
+            return Err(exit::Failure::usage(message));
+        }
+        Ok(source)
     }
 }
 

@@ -2,72 +2,120 @@
 
 use crate::exit::{Doing, Failure};
 use carvel::analysis::mask::AffineFamily;
+use carvel::curve::catalogue::{FAMILIES, NON_STATIONARY};
 use carvel::curve::{Mask, Rational, catalogue, rational};
 use clap::Args;
 
-/// Options that choose a mask.
+/// How a mask is given.
+#[derive(Debug, Clone, Copy)]
+pub enum MaskSource<'a> {
+    /// Its coefficients.
+    Coefficients {
+        /// As typed.
+        text: &'a str,
+        /// New points per old one.
+        arity: usize,
+        /// The index of the first coefficient, unless the mask is centred.
+        offset: Option<i64>,
+    },
+    /// A name of the catalogue, with parameters.
+    Named(&'a str),
+}
+
+impl MaskSource<'_> {
+    /// The mask.
+    ///
+    /// # Errors
+    /// A usage error: no mask, no name of the catalogue, a parameter out of range.
+    pub fn mask(self) -> Result<Mask, Failure> {
+        let mask = match self {
+            Self::Coefficients { text, arity, offset } => Mask::parse(text, arity, offset),
+            Self::Named(name) => {
+                check_name(name)?;
+                catalogue::mask(name)
+            }
+        };
+        mask.map_err(|e| Failure::from_error(&e, Doing::Asking))
+    }
+
+    /// The family of the name with one parameter left open.
+    ///
+    /// # Errors
+    /// A usage error: no name, or a parameter that the family does not have or that counts
+    /// something.
+    pub fn family(self, parameter: &str) -> Result<AffineFamily, Failure> {
+        let Self::Named(name) = self else {
+            return Err(Failure::usage(
+                "--range needs a name of the catalogue, such as four-point",
+            ));
+        };
+        open_family(name, parameter).map_err(|e| Failure::from_error(&e, Doing::Asking))
+    }
+}
+
+fn open_family(name: &str, parameter: &str) -> carvel::Result<AffineFamily> {
+    let (family, parameters) = catalogue::parse(name)?;
+    let index = family.parameters.iter().position(|p| p.name == parameter);
+    // One that does not exist is refused as one that is no free one.
+    AffineFamily::of(family, &parameters, index.unwrap_or(usize::MAX))
+}
+
+/// True if a text names a family of the catalogue, with or without parameters.
+pub(super) fn is_family(text: &str) -> bool {
+    catalogue::family(family_name(text)).is_ok()
+}
+
+/// What stands before the parameters.
+pub fn family_name(text: &str) -> &str {
+    text.split_once(':').map_or(text, |(name, _)| name).trim()
+}
+
+/// Refuses a name that the catalogue does not have, and says which one is near it.
+///
+/// # Errors
+/// A usage error.
+pub fn check_name(text: &str) -> Result<(), Failure> {
+    /// What clap takes to be a typing error.
+    const NEAR: f64 = 0.7;
+    let name = family_name(text);
+    let stationary = FAMILIES.iter().map(|family| family.name);
+    let all = || stationary.clone().chain(NON_STATIONARY.iter().map(|family| family.name));
+    if all().any(|known| known == name) {
+        return Ok(());
+    }
+    let likeness = |known: &&str| strsim::jaro(name, known);
+    let near = all().max_by(|a, b| likeness(a).total_cmp(&likeness(b)));
+    let near = near.filter(|known| likeness(known) > NEAR);
+    let advice =
+        near.map_or("carvel catalogue lists all".to_owned(), |near| format!("'{near}' is near it"));
+    let shown: String = name.chars().take(40).collect();
+    let shown = crate::text::one_line(&shown);
+    Err(Failure::usage(format!("there is no scheme '{shown}' in the catalogue; {advice}")))
+}
+
+/// What `analyse` is asked about a mask.
 #[derive(Debug, Args)]
 #[command(next_help_heading = "Mask of curves and grids")]
 pub struct MaskArgs {
-    /// Analyse a mask rather than a scheme on meshes: its coefficients, such as
-    /// 1/4,3/4,3/4,1/4.
-    #[arg(long, value_name = "A,...", allow_hyphen_values = true,
-          conflicts_with_all = ["curve", "name", "scheme", "valence", "feature"])]
-    mask: Option<String>,
-    /// The same for a mask of the catalogue with its parameters, such as three-point:1/32;
-    /// `carvel catalogue` lists all.
+    /// Analyse a mask of the catalogue with its parameters, such as three-point:1/32, rather
+    /// than a scheme on meshes; `carvel catalogue` lists all. --scheme takes it too, unless a
+    /// scheme on meshes has the same name.
     #[arg(long, value_name = "NAME[:P,...]",
-          conflicts_with_all = ["name", "scheme", "valence", "feature"])]
-    curve: Option<String>,
+          conflicts_with_all = ["name", "scheme", "mask", "valence", "feature"])]
+    pub curve: Option<String>,
     /// New points per old one [default: 2].
     #[arg(long, value_name = "M", requires = "mask")]
-    arity: Option<usize>,
+    pub arity: Option<usize>,
     /// The index of the first coefficient [default: that which centres the mask].
     #[arg(long, value_name = "K", requires = "mask", allow_negative_numbers = true)]
-    offset: Option<i64>,
-    /// With --curve: the values of a parameter for which the schemes are C^0, C^1, ...
-    #[arg(long, value_name = "PARAMETER", requires = "curve")]
+    pub offset: Option<i64>,
+    /// With a name: the values of a parameter for which the schemes are C^0, C^1, ...
+    #[arg(long, value_name = "PARAMETER")]
     pub range: Option<String>,
     /// Where --range looks.
     #[arg(long, value_name = "LOW..HIGH", requires = "range", default_value = "-1..1",
           allow_hyphen_values = true, value_parser = interval)]
     pub within: [Rational; 2],
-}
-
-impl MaskArgs {
-    /// True if a mask is asked for.
-    pub fn is_given(&self) -> bool {
-        self.mask.is_some() || self.curve.is_some()
-    }
-
-    /// The mask.
-    ///
-    /// # Errors
-    /// A usage error: no mask, no name of the catalogue, a parameter out of range.
-    pub fn choose(&self) -> Result<Mask, Failure> {
-        let mask = match (&self.mask, &self.curve) {
-            (Some(text), _) => Mask::parse(text, self.arity.unwrap_or(2), self.offset),
-            (None, name) => catalogue::mask(name.as_deref().unwrap_or_default()),
-        };
-        mask.map_err(|e| Failure::from_error(&e, Doing::Asking))
-    }
-
-    /// The family whose parameter is left open by --range.
-    ///
-    /// # Errors
-    /// A usage error: a parameter that the family does not have, or that counts something.
-    pub fn family(&self) -> Result<Option<AffineFamily>, Failure> {
-        let (Some(parameter), Some(curve)) = (&self.range, &self.curve) else { return Ok(None) };
-        let found = open_family(curve, parameter);
-        found.map(Some).map_err(|e| Failure::from_error(&e, Doing::Asking))
-    }
-}
-
-fn open_family(curve: &str, parameter: &str) -> carvel::Result<AffineFamily> {
-    let (family, parameters) = catalogue::parse(curve)?;
-    let index = family.parameters.iter().position(|p| p.name == parameter);
-    // One that does not exist is refused as one that is no free one.
-    AffineFamily::of(family, &parameters, index.unwrap_or(usize::MAX))
 }
 
 /// Two numbers such as -1/2..0.3.
@@ -88,5 +136,14 @@ mod tests {
         for text in ["", "..", "1", "1..", "a..b", "0..1/0"] {
             assert!(interval(text).is_err(), "{text}");
         }
+    }
+
+    #[test]
+    fn a_name_nearby_is_offered() {
+        let said = |text: &str| check_name(text).unwrap_err().message;
+        assert!(said("chakin").ends_with("'chaikin' is near it"), "{}", said("chakin"));
+        assert!(said("fourpoint:1/16").ends_with("'four-point' is near it"));
+        assert!(said("?").ends_with("lists all"));
+        assert!(check_name("tension-four-point:1").is_ok() && check_name(" chaikin ").is_ok());
     }
 }

@@ -2,6 +2,7 @@
 
 mod analyse;
 mod crease;
+mod curve;
 mod mask;
 mod names;
 mod owners;
@@ -11,7 +12,8 @@ mod view;
 
 pub use analyse::AnalyseArgs;
 pub use crease::CreaseArgs;
-pub use mask::MaskArgs;
+pub use curve::{CurveArgs, CurveFormat, CurveNumbers, PolygonFormat};
+pub use mask::{MaskArgs, MaskSource, check_name, family_name};
 pub use scheme::{Chosen, SchemeArgs};
 pub use stencils::{MatrixFormat, StencilArgs};
 pub use view::ViewArgs;
@@ -45,7 +47,9 @@ pub enum Command {
     Stencils(Box<StencilArgs>),
     /// Say how smooth a scheme's surfaces are around extraordinary points.
     Analyse(Box<AnalyseArgs>),
-    /// List the schemes of curves that `analyse --curve` knows.
+    /// Refine polygons and grids by a mask of any arity; draw them.
+    Curve(Box<CurveArgs>),
+    /// List the schemes of curves, and draw what they do.
     Catalogue(CatalogueArgs),
 }
 
@@ -204,6 +208,9 @@ pub struct PreviewArgs {
 #[derive(Debug, Args)]
 #[command(after_help = exit::HELP)]
 pub struct CatalogueArgs {
+    /// Draw what each scheme makes of a closed and of an open polygon, as SVG or PNG.
+    #[arg(long, value_name = "FILE")]
+    pub plot: Option<PathBuf>,
     /// Print JSON.
     #[arg(long)]
     pub json: bool,

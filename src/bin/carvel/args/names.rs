@@ -4,6 +4,8 @@ use carvel::io::{BoundaryTag, CreasingTag, FaceVaryingTag, TriangleTag};
 use carvel::scheme::{Creasing, Extraordinary, LoopWeights, TriangleRule};
 use carvel::{Boundary, CornerRule, FaceVaryingMode};
 use clap::ValueEnum;
+use clap::builder::{EnumValueParser, PossibleValue, TypedValueParser};
+use std::ffi::OsStr;
 
 /// The names of schemes.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, ValueEnum)]
@@ -25,6 +27,41 @@ pub(super) enum Name {
     Bspline,
     /// A --split followed by smoothing --passes
     Averaging,
+}
+
+/// What may stand for a scheme.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub(super) enum SchemeName {
+    /// A scheme on meshes.
+    Mesh(Name),
+    /// A mask of the catalogue, with its parameters.
+    Mask(String),
+}
+
+/// Reads a scheme; of two with one name that on meshes.
+#[derive(Debug, Clone)]
+pub(super) struct SchemeParser;
+
+impl TypedValueParser for SchemeParser {
+    type Value = SchemeName;
+
+    fn parse_ref(
+        &self,
+        command: &clap::Command,
+        arg: Option<&clap::Arg>,
+        value: &OsStr,
+    ) -> Result<SchemeName, clap::Error> {
+        let on_meshes = EnumValueParser::<Name>::new().parse_ref(command, arg, value);
+        on_meshes.map(SchemeName::Mesh).or_else(|unknown| {
+            let mask = value.to_str().filter(|text| super::mask::is_family(text));
+            mask.map(|text| SchemeName::Mask(text.to_owned())).ok_or(unknown)
+        })
+    }
+
+    fn possible_values(&self) -> Option<Box<dyn Iterator<Item = PossibleValue> + '_>> {
+        let all = Name::value_variants().iter().filter_map(ValueEnum::to_possible_value);
+        Some(Box::new(all))
+    }
 }
 
 /// How faces are split.

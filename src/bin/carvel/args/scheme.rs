@@ -1,8 +1,13 @@
 //! The scheme: a name, the parameters that belong to it, and nothing else.
 
-use super::names::{Around, Beta, Edges, Method, Name, Rule, Split, Triangles, Uv, spelled};
+use super::mask::MaskSource;
+use super::names::{
+    Around, Beta, Edges, Method, Name, Rule, SchemeName, SchemeParser, Split, Triangles, Uv,
+    spelled,
+};
 use super::owners::{AVERAGING, FEATURED, refuse_strangers};
 use crate::exit::{Doing, Failure};
+use carvel::curve::{CurveSplit, Factors};
 use carvel::io::SchemeTags;
 use carvel::scheme::SplitKind;
 use carvel::{FaceVaryingMode, Fraction, Scheme};
@@ -13,9 +18,15 @@ use std::str::FromStr;
 #[derive(Debug, Clone, Args)]
 #[command(next_help_heading = "Scheme")]
 pub struct SchemeArgs {
-    /// The scheme.
-    #[arg(short, long, value_enum, default_value_t, value_name = "NAME")]
-    scheme: Name,
+    /// The scheme; or a mask of `carvel catalogue` with its parameters, such as
+    /// dyn-floater-hormann:1/128, as for --mask.
+    #[arg(short, long, value_parser = SchemeParser, default_value = "three-point",
+          value_name = "NAME")]
+    scheme: SchemeName,
+    /// A mask by its coefficients, such as 1/4,3/4,3/4,1/4 or [1,3,3,1]/4. On meshes: the scheme
+    /// of the averaging family whose regular rule is its tensor square.
+    #[arg(long, value_name = "A,...", allow_hyphen_values = true, conflicts_with = "scheme")]
+    pub mask: Option<String>,
     /// For three-point: the parameter w, from 0 to 1/16 [default: 1/32].
     #[arg(long, value_name = "W", allow_hyphen_values = true)]
     w: Option<Fraction>,
@@ -110,7 +121,8 @@ impl SchemeArgs {
     pub fn choose(&self, file: SchemeTags) -> Result<Chosen, Failure> {
         self.refuse_strangers()?;
         let preset = self.preset()?;
-        let featured = FEATURED.contains(&self.scheme);
+        let name = self.name();
+        let featured = FEATURED.contains(&name);
         let tags = if featured { file } else { SchemeTags::default() };
         let rule = self.corner_rule.unwrap_or_default();
         let boundary = self.boundary.or(tags.boundary.map(Into::into)).unwrap_or_default();
@@ -128,17 +140,17 @@ impl SchemeArgs {
             .with_extraordinary(around.into())
             .map_err(|e| Failure::from_error(&e, Doing::Asking))?;
         let options = [
-            ("corner_rule", spelled(&rule), AVERAGING.contains(&self.scheme)),
+            ("corner_rule", spelled(&rule), AVERAGING.contains(&name)),
             ("boundary", spelled(&boundary), true),
             ("creasing", spelled(&creasing), featured),
-            ("triangle_rule", spelled(&triangles), self.scheme == Name::CatmullClark),
-            ("loop_weights", spelled(&beta), self.scheme == Name::Loop),
-            ("extraordinary", spelled(&around), self.scheme == Name::ThreePoint),
+            ("triangle_rule", spelled(&triangles), name == Name::CatmullClark),
+            ("loop_weights", spelled(&beta), name == Name::Loop),
+            ("extraordinary", spelled(&around), name == Name::ThreePoint),
             ("uv", spelled(&uv), featured),
         ];
         let asked = options.into_iter().filter(|(.., asked)| *asked);
         Ok(Chosen {
-            name: spelled(&self.scheme),
+            name: spelled(&name),
             scheme,
             uv: uv.into(),
             options: asked.map(|(option, word, _)| (option, word)).collect(),
@@ -160,9 +172,41 @@ impl SchemeArgs {
     ///
     /// # Errors
     /// As [`SchemeArgs::choose`].
-    pub(super) fn choose_named(&self, name: Option<Name>) -> Result<Chosen, Failure> {
-        let scheme = name.unwrap_or(self.scheme);
+    pub(super) fn choose_named(&self, name: Option<&SchemeName>) -> Result<Chosen, Failure> {
+        let scheme = name.unwrap_or(&self.scheme).clone();
         Self { scheme, ..self.clone() }.choose(SchemeTags::default())
+    }
+
+    /// The mask of the catalogue that stands for the scheme.
+    pub(super) fn named_mask(&self) -> Option<&str> {
+        match &self.scheme {
+            SchemeName::Mask(text) => Some(text),
+            SchemeName::Mesh(_) => None,
+        }
+    }
+
+    /// The name of the scheme; masks are of the averaging family.
+    fn name(&self) -> Name {
+        match (&self.mask, &self.scheme) {
+            (None, SchemeName::Mesh(name)) => *name,
+            _ => Name::Averaging,
+        }
+    }
+
+    /// Split and passes of a mask, if one is given.
+    fn factors(&self) -> Result<Option<Factors>, Failure> {
+        let source = match (&self.mask, &self.scheme) {
+            (Some(text), _) => MaskSource::Coefficients { text, arity: 2, offset: None },
+            (None, SchemeName::Mask(text)) => MaskSource::Named(text),
+            (None, SchemeName::Mesh(_)) => return Ok(None),
+        };
+        let factors = Factors::of(&source.mask()?);
+        factors.map(Some).map_err(|e| Failure::from_error(&e, Doing::Asking))
+    }
+
+    /// True if an option is given that says something about meshes.
+    pub(super) fn has_options(&self) -> bool {
+        self.strangers().iter().any(|(_, given, _)| *given) || self.boundary.is_some()
     }
 
     /// The tags that no option overrules.
@@ -177,7 +221,17 @@ impl SchemeArgs {
 
     /// Refuses options that belong to another scheme.
     fn refuse_strangers(&self) -> Result<(), Failure> {
-        let options: [(_, _, &[Name]); 10] = [
+        let given = self.split.is_some() || self.passes.is_some();
+        if given && (self.mask.is_some() || self.named_mask().is_some()) {
+            let message = "--split and --passes of a mask follow from it";
+            return Err(Failure::usage(message));
+        }
+        refuse_strangers(self.name(), &self.strangers())
+    }
+
+    /// The options that belong to some schemes: whether they are given, and to which.
+    fn strangers(&self) -> [(&'static str, bool, &'static [Name]); 10] {
+        [
             ("--w", self.w.is_some(), &[Name::ThreePoint]),
             ("--degree", self.degree.is_some(), &[Name::Bspline]),
             ("--split", self.split.is_some(), &[Name::Averaging]),
@@ -188,8 +242,7 @@ impl SchemeArgs {
             ("--loop-weights", self.loop_weights.is_some(), &[Name::Loop]),
             ("--extraordinary", self.extraordinary.is_some(), &[Name::ThreePoint]),
             ("--uv", self.uv.is_some(), FEATURED),
-        ];
-        refuse_strangers(self.scheme, &options)
+        ]
     }
 
     /// Refuses an option outside of this group unless the scheme has creases and holes.
@@ -197,12 +250,19 @@ impl SchemeArgs {
     /// # Errors
     /// A usage error.
     pub fn require_features(&self, option: &str, given: bool) -> Result<(), Failure> {
-        refuse_strangers(self.scheme, &[(option, given, FEATURED)])
+        refuse_strangers(self.name(), &[(option, given, FEATURED)])
     }
 
     fn preset(&self) -> Result<Scheme, Failure> {
+        if let Some(Factors { split, passes }) = self.factors()? {
+            let scheme = match split {
+                CurveSplit::Dual => Scheme::dual(&passes),
+                CurveSplit::Primal => Scheme::primal(&passes),
+            };
+            return scheme.map_err(|e| Failure::from_error(&e, Doing::Asking));
+        }
         let passes = self.passes.as_ref().map_or(&[][..], |passes| &passes.0);
-        let scheme = match self.scheme {
+        let scheme = match self.name() {
             Name::ThreePoint => match self.w {
                 Some(w) => Scheme::three_point(w),
                 None => Fraction::new(1, 32).and_then(Scheme::three_point),

@@ -1,13 +1,12 @@
-//! Masks of curves and grids: `analyse --mask` or `--curve`, and `catalogue`.
+//! The analysis of masks of curves and grids, a part of `analyse`.
 
-use crate::args::{CatalogueArgs, MaskArgs};
+use crate::args::{AnalyseArgs, MaskArgs, MaskSource};
 use crate::exit::{Doing, Exit, Failure};
-use crate::report;
 use crate::session::Session;
+use crate::{plot, report};
 use carvel::analysis::mask::{
     AffineFamily, Analysis, Certificate, Effort, ParameterRange, Response,
 };
-use carvel::curve::catalogue::{FAMILIES, NON_STATIONARY, Parameter};
 use carvel::curve::rational::{ratio, to_f64};
 use carvel::curve::{CurveSplit, Factors, Mask, Rational};
 use serde_json::{Value, json};
@@ -17,24 +16,32 @@ use std::fmt::Write as _;
 const WAVE: f64 = 6.0;
 
 /// Analyses a mask.
-pub fn analyse(args: &MaskArgs, json: bool, quiet: bool) -> Result<Exit, Failure> {
-    let (mask, family) = (args.choose()?, args.family()?);
-    let session = Session::new(1, None, quiet || json)?;
+pub fn analyse(args: &AnalyseArgs, source: MaskSource) -> Result<Exit, Failure> {
+    let options = &args.mask;
+    let mask = source.mask()?;
+    let family = options.range.as_deref().map(|parameter| source.family(parameter)).transpose()?;
+    let kind = args.plot.as_deref().map(plot::kind_of).transpose()?;
+    let session = Session::new(1, None, args.quiet || args.json)?;
     session.console.phase("analysing", "the mask");
     let failed = |e| Failure::from_error(&e, Doing::Asking);
     let effort = Effort::default();
     let found = Analysis::of(&session.context, &mask, effort).map_err(failed)?;
-    let ranges = family.map(|family| ranges(&session, &family, args)).transpose()?;
+    let ranges = family.map(|family| ranges(&session, &family, options)).transpose()?;
     let wave = Response::of(&mask, WAVE).map_err(failed)?;
+    if let (Some(path), Some(kind)) = (&args.plot, kind) {
+        let ranges = options.range.as_deref().zip(ranges.as_deref());
+        let figure = plot::mask::figure(&session.context, &mask, found.continuity, ranges);
+        plot::save(&session, path, kind, &figure.map_err(failed)?)?;
+    }
     session.console.clear();
-    if json {
+    if args.json {
         let mut document = document(&mask, &found, wave);
         if let Some(ranges) = &ranges {
             document["ranges"] = ranges_document(ranges);
         }
-        return report::print(&report::document(&document));
+        return args.print(&report::document(&document));
     }
-    report::print(&text(&mask, &found, wave, args, ranges.as_deref()))
+    args.print(&text(&mask, &found, wave, options, ranges.as_deref()))
 }
 
 /// For each order the values for which the family is smooth, up to the first without any.
@@ -219,62 +226,4 @@ fn range_text(name: &str, list: &[ParameterRange]) -> String {
         ),
     };
     list.iter().map(range).collect::<Vec<_>>().join(", ")
-}
-
-/// Lists the catalogue.
-pub fn catalogue(args: &CatalogueArgs) -> Result<Exit, Failure> {
-    if args.json {
-        return report::print(&report::document(&catalogue_document()));
-    }
-    let mut text = String::new();
-    for family in &FAMILIES {
-        let parameter = |p: &Parameter| format!("    {} = {}: {}\n", p.name, p.default, p.range);
-        let parameters: String = family.parameters.iter().map(parameter).collect();
-        let (name, mark) = (family.name, family.attribution.name());
-        let (summary, authors, year) = (family.summary, family.authors, family.year);
-        let _ = write!(
-            text,
-            "{name}: {summary}\n    {authors}, {year} ({mark})\n    {}\n{parameters}",
-            family.formula
-        );
-    }
-    for family in &NON_STATIONARY {
-        let (name, mark) = (family.name, family.attribution.name());
-        let (summary, authors, year) = (family.summary, family.authors, family.year);
-        let _ = write!(
-            text,
-            "{name}: {summary}\n    {authors}, {year} ({mark})\n    {}\n    not stationary; in the limit {}\n",
-            family.formula, family.limit,
-        );
-    }
-    report::print(&text)
-}
-
-fn catalogue_document() -> Value {
-    let parameter = |p: &Parameter| json!({ "name": p.name, "range": p.range, "default": p.default, "free": p.is_free });
-    let stationary = FAMILIES.iter().map(|family| {
-        json!({
-            "name": family.name,
-            "summary": family.summary,
-            "authors": family.authors,
-            "year": family.year,
-            "formula": family.formula,
-            "attribution": family.attribution.name(),
-            "stationary": true,
-            "parameters": family.parameters.iter().map(parameter).collect::<Vec<_>>(),
-        })
-    });
-    let others = NON_STATIONARY.iter().map(|family| {
-        json!({
-            "name": family.name,
-            "summary": family.summary,
-            "authors": family.authors,
-            "year": family.year,
-            "formula": family.formula,
-            "attribution": family.attribution.name(),
-            "stationary": false,
-            "limit": family.limit,
-        })
-    });
-    stationary.chain(others).collect()
 }

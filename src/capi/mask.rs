@@ -1,0 +1,301 @@
+//! `carvel_mask`: a scheme of polygons, what it makes of them and what is proved of it.
+
+use super::buffer::{check_overlap, check_pointer, list};
+use super::guard::call;
+use super::object::{destroy_function, object};
+use super::status::{CARVEL_STATUS_TOO_LARGE, Fault, Result, carvel_status};
+use super::values::{ConstValues, Values};
+use super::versioned::{check, init_function, initial, versioned, write};
+use super::{carvel_context, carvel_error, carvel_fraction, carvel_scheme};
+use crate::analysis::mask::{Analysis, Effort};
+use crate::base::{Context, Error, ErrorKind, Scalar, memory};
+use crate::curve::rational::to_fraction;
+use crate::curve::{
+    Coordinate, CurveSplit, Ends, Factors, Mask, Parametrisation, Polygon, Rational, catalogue,
+};
+use crate::scheme::Scheme;
+use std::ffi::{CStr, c_char};
+
+object!(carvel_mask, Mask);
+
+pub const CARVEL_ENDS_CLOSED: i32 = 0;
+pub const CARVEL_ENDS_DROPPED: i32 = 1;
+pub const CARVEL_ENDS_KEPT: i32 = 2;
+pub const CARVEL_ENDS_ANCHORED: i32 = 3;
+
+pub const CARVEL_PARAMETRISATION_PRIMAL: i32 = 0;
+pub const CARVEL_PARAMETRISATION_DUAL: i32 = 1;
+pub const CARVEL_PARAMETRISATION_OTHER: i32 = 2;
+
+versioned! {
+    pub struct carvel_polygon_counts {
+        pub struct_size: u32,
+        pub ends: i32,
+        pub points: u64,
+    }
+}
+
+versioned! {
+    pub struct carvel_mask_analysis {
+        pub struct_size: u32,
+        pub arity: u32,
+        pub offset: i64,
+        pub continuity: i32,
+        pub parametrisation: i32,
+        pub is_symmetric: i32,
+        pub is_interpolating: i32,
+        pub proof_continuity: i32,
+        pub proof_power: u32,
+        pub proof_norm: carvel_fraction,
+        pub holder_low: f64,
+        pub holder_high: f64,
+        pub support: carvel_fraction,
+        pub tau: carvel_fraction,
+        pub smoothing_factors: u32,
+        pub generation_degree: u32,
+        pub reproduction_degree: u32,
+        pub reserved: u32,
+    }
+}
+
+fn ends(ends: i32) -> Result<Ends> {
+    match ends {
+        CARVEL_ENDS_CLOSED => Ok(Ends::Closed),
+        CARVEL_ENDS_DROPPED => Ok(Ends::Dropped),
+        CARVEL_ENDS_KEPT => Ok(Ends::Kept),
+        CARVEL_ENDS_ANCHORED => Ok(Ends::Anchored),
+        other => Err(Fault::out_of_range(format!("there are no ends {other}"))),
+    }
+}
+
+fn ends_number(ends: Ends) -> i32 {
+    match ends {
+        Ends::Closed => CARVEL_ENDS_CLOSED,
+        Ends::Dropped => CARVEL_ENDS_DROPPED,
+        Ends::Kept => CARVEL_ENDS_KEPT,
+        Ends::Anchored => CARVEL_ENDS_ANCHORED,
+    }
+}
+
+/// The nearest thing to a number that fits: none is 0/0.
+fn fraction(value: Option<&Rational>) -> carvel_fraction {
+    value.and_then(to_fraction).map(Into::into).unwrap_or_default()
+}
+
+/// A degree, an order or a count; of what is not there -1.
+fn order(value: Option<usize>) -> i32 {
+    value.and_then(|k| i32::try_from(k).ok()).unwrap_or(-1)
+}
+
+/// The mask of a text: a name of the catalogue begins with a letter, coefficients do not.
+///
+/// # Safety
+/// NULL, or a string that ends with a zero byte.
+unsafe fn mask(text: *const c_char, arity: u32) -> Result<Mask> {
+    check_pointer(text, "text")?;
+    // SAFETY: the caller's contract.
+    let text = unsafe { CStr::from_ptr(text) }.to_str();
+    let text =
+        text.map_err(|_| Error::new(ErrorKind::InvalidText, "the text is no UTF-8".to_owned()))?;
+    let named = text.trim_start().starts_with(|c: char| c.is_ascii_alphabetic());
+    match (named, arity) {
+        (true, 0) => Ok(catalogue::mask(text)?),
+        (true, _) => Err(Fault::out_of_range("arity is set, but a name has its own")),
+        (false, 0) => Ok(Mask::parse(text, 2, None)?),
+        (false, arity) => Ok(Mask::parse(text, arity as usize, None)?),
+    }
+}
+
+impl carvel_mask_analysis {
+    fn of(mask: &Mask, found: &Analysis) -> Self {
+        let proof = found.contractivity.as_ref();
+        Self {
+            arity: mask.arity() as u32,
+            offset: mask.offset(),
+            continuity: order(found.continuity),
+            parametrisation: match found.parametrisation {
+                Parametrisation::Primal => CARVEL_PARAMETRISATION_PRIMAL,
+                Parametrisation::Dual => CARVEL_PARAMETRISATION_DUAL,
+                Parametrisation::Other => CARVEL_PARAMETRISATION_OTHER,
+            },
+            is_symmetric: i32::from(found.is_symmetric),
+            is_interpolating: i32::from(found.is_interpolating),
+            proof_continuity: order(proof.map(|proof| proof.continuity)),
+            proof_power: proof.map_or(0, |proof| proof.power),
+            proof_norm: fraction(proof.map(|proof| &proof.norm)),
+            holder_low: found.holder.low,
+            holder_high: found.holder.high,
+            support: fraction(Some(&found.support)),
+            tau: fraction(Some(&found.tau)),
+            smoothing_factors: found.smoothing.factors as u32,
+            generation_degree: found.degrees.generation as u32,
+            reproduction_degree: found.degrees.reproduction as u32,
+            ..initial()
+        }
+    }
+}
+
+init_function!(carvel_polygon_counts_init, carvel_polygon_counts);
+init_function!(carvel_mask_analysis_init, carvel_mask_analysis);
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn carvel_mask_create(
+    text: *const c_char,
+    arity: u32,
+    out: *mut *mut carvel_mask,
+    error: *mut carvel_error,
+) -> carvel_status {
+    // SAFETY: the header's contract.
+    unsafe { call(error, |call| call.create(out, |_| mask(text, arity))) }
+}
+
+destroy_function!(carvel_mask_destroy, carvel_mask);
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn carvel_mask_coefficients(
+    mask: *const carvel_mask,
+    out: *mut carvel_fraction,
+    capacity: u64,
+    count: *mut u64,
+    error: *mut carvel_error,
+) -> carvel_status {
+    // SAFETY: the header's contract.
+    unsafe {
+        call(error, |call| {
+            let exact = call.object(mask)?.coefficients().iter().map(to_fraction);
+            let exact: Option<Vec<carvel_fraction>> = exact.map(|c| c.map(Into::into)).collect();
+            let too_long =
+                || Fault::new(CARVEL_STATUS_TOO_LARGE, "a coefficient does not fit 64 bits");
+            list(&exact.ok_or_else(too_long)?, out, capacity, count)
+        })
+    }
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn carvel_mask_scheme(
+    mask: *const carvel_mask,
+    out: *mut *mut carvel_scheme,
+    error: *mut carvel_error,
+) -> carvel_status {
+    // SAFETY: the header's contract.
+    unsafe {
+        call(error, |call| {
+            call.create(out, |call| {
+                let Factors { split, passes } = Factors::of(call.object(mask)?)?;
+                Ok(match split {
+                    CurveSplit::Dual => Scheme::dual(&passes)?,
+                    CurveSplit::Primal => Scheme::primal(&passes)?,
+                })
+            })
+        })
+    }
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn carvel_mask_analyse(
+    mask: *const carvel_mask,
+    context: *const carvel_context,
+    analysis: *mut carvel_mask_analysis,
+    error: *mut carvel_error,
+) -> carvel_status {
+    // SAFETY: the header's contract.
+    unsafe {
+        call(error, |call| {
+            let (mask, context) = (call.object(mask)?, call.context(context)?);
+            check(analysis)?;
+            let found = Analysis::of(&context, mask, Effort::default())?;
+            write(analysis, &carvel_mask_analysis::of(mask, &found))
+        })
+    }
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn carvel_mask_counts(
+    mask: *const carvel_mask,
+    ends_before: i32,
+    points: u64,
+    steps: u32,
+    counts: *mut carvel_polygon_counts,
+    error: *mut carvel_error,
+) -> carvel_status {
+    // SAFETY: the header's contract.
+    unsafe {
+        call(error, |call| {
+            let mask = call.object(mask)?;
+            check(counts)?;
+            let points = usize::try_from(points).unwrap_or(usize::MAX);
+            let (points, after) = Polygon::<f64>::predict(mask, points, ends(ends_before)?, steps)?;
+            let (ends, points) = (ends_number(after), points as u64);
+            write(counts, &carvel_polygon_counts { ends, points, ..initial() })
+        })
+    }
+}
+
+/// Refines a polygon of the caller's.
+fn refine<T: Scalar + Coordinate>(
+    context: &Context,
+    mask: &Mask,
+    (points, width, ends): (&[T], usize, Ends),
+    steps: u32,
+) -> Result<Vec<T>> {
+    let polygon = Polygon::new(memory::copied(points)?, width, ends);
+    Ok(polygon.refine(context, mask, steps)?.points)
+}
+
+/// # Safety
+/// The header's contract.
+unsafe fn run<T: Scalar + Coordinate>(
+    (mask, context): (*const carvel_mask, *const carvel_context),
+    (ends_before, steps): (i32, u32),
+    (points, out): (*const ConstValues<T>, *const Values<T>),
+    error: *mut carvel_error,
+) -> carvel_status {
+    // SAFETY: the caller's contract.
+    unsafe {
+        call(error, |call| {
+            let (mask, context) = (call.object(mask)?, call.context(context)?);
+            let ends = ends(ends_before)?;
+            check_pointer(points, "points")?;
+            check_pointer(out, "out")?;
+            let points = points.read();
+            let count = usize::try_from(points.count).unwrap_or(usize::MAX);
+            let (needed, _) = Polygon::<T>::predict(mask, count, ends, steps)?;
+            let from = points.check(points.count, "points".into())?;
+            let to = out.read().check(needed as u64, from.width, "out".into())?;
+            check_overlap(&[from.read_span().hull(), to.write_span().hull()])?;
+            let refined = refine(&context, mask, (from.read()?.values(), from.width, ends), steps)?;
+            let mut sink = to.sink()?;
+            sink.values().copy_from_slice(&refined);
+            sink.finish();
+            Ok(())
+        })
+    }
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn carvel_mask_refine_f32(
+    mask: *const carvel_mask,
+    context: *const carvel_context,
+    ends: i32,
+    steps: u32,
+    points: *const ConstValues<f32>,
+    out: *const Values<f32>,
+    error: *mut carvel_error,
+) -> carvel_status {
+    // SAFETY: the header's contract.
+    unsafe { run((mask, context), (ends, steps), (points, out), error) }
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn carvel_mask_refine_f64(
+    mask: *const carvel_mask,
+    context: *const carvel_context,
+    ends: i32,
+    steps: u32,
+    points: *const ConstValues<f64>,
+    out: *const Values<f64>,
+    error: *mut carvel_error,
+) -> carvel_status {
+    // SAFETY: the header's contract.
+    unsafe { run((mask, context), (ends, steps), (points, out), error) }
+}

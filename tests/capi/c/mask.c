@@ -1,0 +1,319 @@
+/* Masks: polygons refined as computed by hand, what is proved of a scheme, and every
+ * wrong call. Schemes at features. */
+#include "fixture.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Eigenvalues, which are computed in double precision. */
+static const double EIGENVALUE = 1e-9;
+
+static carvel_mask *mask_of(const char *text, uint32_t arity)
+{
+    carvel_mask *it = NULL;
+    CHECK_OK(carvel_mask_create(text, arity, &it, failure));
+    return it;
+}
+
+static carvel_polygon_counts counts_after(const carvel_mask *mask, int32_t ends, uint64_t points,
+                                          uint32_t steps)
+{
+    carvel_polygon_counts counts;
+    CHECK_OK(carvel_polygon_counts_init(&counts, sizeof counts));
+    CHECK_OK(carvel_mask_counts(mask, ends, points, steps, &counts, failure));
+    return counts;
+}
+
+static carvel_const_values_f64 from64(const double *data, uint64_t count, uint64_t width)
+{
+    carvel_const_values_f64 it;
+    it.data = data;
+    it.count = count;
+    it.width = width;
+    it.stride = 0;
+    return it;
+}
+
+static carvel_values_f64 to64(double *data, uint64_t count, uint64_t width)
+{
+    carvel_values_f64 it;
+    it.data = data;
+    it.count = count;
+    it.width = width;
+    it.stride = 0;
+    return it;
+}
+
+/* ---------------------------------------------------------------- polygons */
+
+/* Chaikin's first step on a square, all numbers exact. */
+static void check_square(void)
+{
+    static const double square[] = {0, 0, 4, 0, 4, 4, 0, 4};
+    static const double expected[] = {1, 0, 3, 0, 4, 1, 4, 3, 3, 4, 1, 4, 0, 3, 0, 1};
+    carvel_mask *named = mask_of("chaikin", 0), *listed = mask_of("[1,3,3,1]/4", 2);
+    const carvel_const_values_f64 from = from64(square, 4, 2);
+    carvel_polygon_counts counts = counts_after(named, CARVEL_ENDS_CLOSED, 4, 1);
+    double a[16], b[16];
+    carvel_values_f64 to = to64(a, 8, 2);
+    check_context("square");
+    CHECK_UINT(8, counts.points);
+    CHECK(counts.ends == CARVEL_ENDS_CLOSED);
+    CHECK_OK(carvel_mask_refine_f64(named, NULL, CARVEL_ENDS_CLOSED, 1, &from, &to, failure));
+    CHECK_BYTES(expected, a, sizeof expected);
+    to.data = b;
+    CHECK_OK(carvel_mask_refine_f64(listed, NULL, CARVEL_ENDS_CLOSED, 1, &from, &to, failure));
+    CHECK_BYTES(a, b, sizeof a);
+    carvel_mask_destroy(named);
+    carvel_mask_destroy(listed);
+}
+
+/* Ends that stay; floats with gaps, which are left alone. */
+static void check_ends(void)
+{
+    static const float line[] = {0, -1, 8, -1, 16, -1};
+    static const float expected[] = {0, 7, 2, 7, 6, 7, 10, 7, 14, 7, 16, 7};
+    carvel_mask *chaikin = mask_of("chaikin", 0);
+    carvel_polygon_counts counts = counts_after(chaikin, CARVEL_ENDS_KEPT, 3, 1);
+    carvel_const_values_f32 from;
+    carvel_values_f32 to;
+    carvel_context *context = context_of(2);
+    float out[12];
+    int i;
+    check_context("ends");
+    CHECK_UINT(6, counts.points);
+    CHECK(counts.ends == CARVEL_ENDS_ANCHORED);
+    counts = counts_after(chaikin, counts.ends, counts.points, 1);
+    CHECK_UINT(10, counts.points);
+    counts = counts_after(chaikin, CARVEL_ENDS_DROPPED, 3, 1);
+    CHECK_UINT(4, counts.points);
+    from.data = line;
+    from.count = 3;
+    from.width = 1;
+    from.stride = 2 * sizeof *line;
+    to.data = out;
+    to.count = 6;
+    to.width = 1;
+    to.stride = 2 * sizeof *out;
+    for (i = 0; i < 12; i++)
+        out[i] = 7;
+    CHECK_OK(carvel_mask_refine_f32(chaikin, context, CARVEL_ENDS_KEPT, 1, &from, &to, failure));
+    CHECK_BYTES(expected, out, sizeof out);
+    carvel_context_destroy(context);
+    carvel_mask_destroy(chaikin);
+}
+
+/* ---------------------------------------------------------------- analysis */
+
+static void check_paper(void)
+{
+    static const int64_t numerators[] = {1, 9, 11, 11, 9, 1}, denominators[] = {32, 32, 16, 16, 32, 32};
+    carvel_mask *mask = mask_of("three-point:1/32", 0);
+    carvel_scheme *scheme = NULL;
+    carvel_fraction list[6];
+    carvel_mask_analysis it;
+    uint64_t count = 0, i;
+    check_context("the paper's mask");
+    CHECK_OK(carvel_mask_coefficients(mask, NULL, 0, &count, failure));
+    CHECK_UINT(6, count);
+    CHECK_OK(carvel_mask_coefficients(mask, list, 6, NULL, failure));
+    for (i = 0; i < 6; i++)
+        CHECK(list[i].numerator == numerators[i] && list[i].denominator == denominators[i]);
+    CHECK_OK(carvel_mask_analysis_init(&it, sizeof it));
+    CHECK_OK(carvel_mask_analyse(mask, NULL, &it, failure));
+    CHECK_UINT(2, it.arity);
+    CHECK(it.offset == -3 && it.continuity == 2);
+    CHECK(it.parametrisation == CARVEL_PARAMETRISATION_DUAL);
+    CHECK(it.is_symmetric == 1 && it.is_interpolating == 0);
+    CHECK(it.proof_continuity == 2 && it.proof_power == 1);
+    CHECK(it.proof_norm.numerator == 3 && it.proof_norm.denominator == 4);
+    CHECK(fabs(it.holder_low - (2 - log(0.75) / log(2))) < 1e-12);
+    CHECK(it.holder_low == it.holder_high);
+    CHECK(it.support.numerator == 5 && it.support.denominator == 1);
+    CHECK(it.tau.numerator == -1 && it.tau.denominator == 2);
+    CHECK_UINT(3, it.smoothing_factors);
+    CHECK_UINT(2, it.generation_degree);
+    CHECK_UINT(1, it.reproduction_degree);
+    CHECK_OK(carvel_mask_scheme(mask, &scheme, failure));
+    CHECK_OK(carvel_scheme_passes(scheme, list, 6, &count, failure));
+    CHECK_UINT(1, count);
+    CHECK(list[0].numerator == 1 && list[0].denominator == 2);
+    carvel_scheme_destroy(scheme);
+    carvel_mask_destroy(mask);
+    mask = mask_of("[1,0,0,0,1,2]/2", 0);
+    CHECK_OK(carvel_mask_analyse(mask, NULL, &it, failure));
+    CHECK(it.continuity == -1 && it.proof_continuity == -1);
+    CHECK(it.proof_norm.numerator == 0 && it.proof_norm.denominator == 0);
+    carvel_mask_destroy(mask);
+}
+
+static void check_features(void)
+{
+    carvel_scheme *doo_sabin = scheme_of(CARVEL_SCHEME_DOO_SABIN, 0);
+    carvel_scheme *clark = scheme_of(CARVEL_SCHEME_CATMULL_CLARK, 0);
+    carvel_feature_analysis it;
+    check_context("features");
+    CHECK_OK(carvel_feature_analysis_init(&it, sizeof it));
+    CHECK_OK(carvel_scheme_analyse(doo_sabin, CARVEL_FEATURE_INTERIOR, 5, &it, failure));
+    CHECK(fabs(it.lambda - 0.5) < EIGENVALUE && fabs(it.mu - 0.25) < EIGENVALUE);
+    CHECK(it.tangent == CARVEL_TANGENT_CONTINUOUS && it.curvature == CARVEL_CURVATURE_GROWING);
+    CHECK(it.is_injective == 1 && it.least_jacobian > 0 && it.sample_count > 0);
+    CHECK_OK(carvel_scheme_analyse(clark, CARVEL_FEATURE_INTERIOR, 3, &it, failure));
+    CHECK(it.curvature == CARVEL_CURVATURE_VANISHING);
+    CHECK_OK(carvel_scheme_analyse(clark, CARVEL_FEATURE_INTERIOR, 4, &it, failure));
+    CHECK(it.curvature == CARVEL_CURVATURE_BOUNDED);
+    CHECK_OK(carvel_scheme_analyse(clark, CARVEL_FEATURE_INTERIOR, 5, &it, failure));
+    CHECK(it.curvature == CARVEL_CURVATURE_UNBOUNDED && it.lambda > 0.5499 && it.lambda < 0.55);
+    CHECK_OK(carvel_scheme_analyse(clark, CARVEL_FEATURE_BOUNDARY, 3, &it, failure));
+    CHECK(it.curvature == CARVEL_CURVATURE_NO_VERDICT);
+    CHECK_OK(carvel_scheme_analyse(clark, CARVEL_FEATURE_CREASE, 4, &it, failure));
+    CHECK(it.tangent == CARVEL_TANGENT_SHARP);
+    CHECK_STATUS(CARVEL_STATUS_UNSUPPORTED,
+                 carvel_scheme_analyse(doo_sabin, CARVEL_FEATURE_DART, 4, &it, failure));
+    CHECK_STATUS(CARVEL_STATUS_PARAMETER_OUT_OF_RANGE,
+                 carvel_scheme_analyse(clark, 5, 4, &it, failure));
+    CHECK_STATUS(CARVEL_STATUS_PARAMETER_OUT_OF_RANGE,
+                 carvel_scheme_analyse(clark, CARVEL_FEATURE_INTERIOR, 2, &it, failure));
+    CHECK_STATUS(CARVEL_STATUS_PARAMETER_OUT_OF_RANGE,
+                 carvel_scheme_analyse(clark, CARVEL_FEATURE_CORNER, UINT64_MAX, &it, failure));
+    CHECK_STATUS(CARVEL_STATUS_NULL_POINTER,
+                 carvel_scheme_analyse(NULL, CARVEL_FEATURE_INTERIOR, 4, &it, failure));
+    CHECK_STATUS(CARVEL_STATUS_NULL_POINTER,
+                 carvel_scheme_analyse(clark, CARVEL_FEATURE_INTERIOR, 4, NULL, failure));
+    it.struct_size = 12;
+    CHECK_STATUS(CARVEL_STATUS_STRUCT_SIZE,
+                 carvel_scheme_analyse(clark, CARVEL_FEATURE_INTERIOR, 4, &it, failure));
+    CHECK_STATUS(CARVEL_STATUS_STRUCT_SIZE, carvel_feature_analysis_init(&it, 12));
+    carvel_scheme_destroy(doo_sabin);
+    carvel_scheme_destroy(clark);
+}
+
+/* ------------------------------------------------------------------ misuse */
+
+static void check_texts(void)
+{
+    static const struct {
+        const char *text;
+        uint32_t arity;
+        carvel_status status;
+    } wrong[] = {
+        {"", 0, CARVEL_STATUS_INVALID_NUMBER},
+        {"chakin", 0, CARVEL_STATUS_INVALID_NUMBER},
+        {"1,one", 2, CARVEL_STATUS_INVALID_NUMBER},
+        {"1/0,1", 2, CARVEL_STATUS_INVALID_NUMBER},
+        {"nan", 0, CARVEL_STATUS_INVALID_NUMBER},
+        {"[1,3,3,1", 2, CARVEL_STATUS_INVALID_NUMBER},
+        {"\xff", 0, CARVEL_STATUS_INVALID_NUMBER},
+        {"chaikin", 2, CARVEL_STATUS_PARAMETER_OUT_OF_RANGE},
+        {"b-spline:65", 0, CARVEL_STATUS_PARAMETER_OUT_OF_RANGE},
+        {"1,2", 2, CARVEL_STATUS_PARAMETER_OUT_OF_RANGE},
+        {"1,1", 1, CARVEL_STATUS_PARAMETER_OUT_OF_RANGE},
+        {"1,1", 65, CARVEL_STATUS_PARAMETER_OUT_OF_RANGE},
+    };
+    size_t i;
+    carvel_mask *it;
+    check_context("texts");
+    for (i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        it = (carvel_mask *)&i;
+        CHECK_STATUS(wrong[i].status,
+                     carvel_mask_create(wrong[i].text, wrong[i].arity, &it, failure));
+        CHECK(it == NULL);
+    }
+    CHECK_STATUS(CARVEL_STATUS_NULL_POINTER, carvel_mask_create(NULL, 0, &it, failure));
+    CHECK_STATUS(CARVEL_STATUS_NULL_POINTER, carvel_mask_create("chaikin", 0, NULL, failure));
+    carvel_mask_destroy(NULL);
+}
+
+static void check_refused(void)
+{
+    static const double line[] = {0, 1, 2, 3};
+    carvel_mask *mask = mask_of("chaikin", 0), *lopsided = mask_of("[2,3,2,1]/4", 0);
+    carvel_mask *ternary = mask_of("b-spline:2,3", 0);
+    carvel_mask *huge = mask_of("[1,36893488147419103232,36893488147419103231,0]/"
+                                "36893488147419103232", 0);
+    carvel_const_values_f64 from = from64(line, 4, 1);
+    double out[8];
+    double nan_at_2[4];
+    carvel_values_f64 to = to64(out, 8, 1);
+    carvel_polygon_counts counts;
+    carvel_mask_analysis analysis;
+    carvel_scheme *scheme = NULL;
+    carvel_fraction list[4];
+    carvel_context *context = context_of(1);
+    check_context("refused");
+    CHECK_OK(carvel_polygon_counts_init(&counts, sizeof counts));
+    CHECK_OK(carvel_mask_analysis_init(&analysis, sizeof analysis));
+    CHECK_STATUS(CARVEL_STATUS_STRUCT_SIZE, carvel_polygon_counts_init(&counts, 8));
+    CHECK_STATUS(CARVEL_STATUS_NULL_POINTER, carvel_mask_analysis_init(NULL, sizeof analysis));
+#define REFINE(ends, steps) \
+    carvel_mask_refine_f64(mask, NULL, ends, steps, &from, &to, failure)
+    CHECK_OK(REFINE(CARVEL_ENDS_CLOSED, 1));
+    CHECK_STATUS(CARVEL_STATUS_PARAMETER_OUT_OF_RANGE, REFINE(4, 1));
+    CHECK_STATUS(CARVEL_STATUS_PARAMETER_OUT_OF_RANGE, REFINE(CARVEL_ENDS_CLOSED, 65));
+    CHECK_STATUS(CARVEL_STATUS_BUFFER_TOO_SMALL, REFINE(CARVEL_ENDS_CLOSED, 2));
+    CHECK_STATUS(CARVEL_STATUS_TOO_LARGE, REFINE(CARVEL_ENDS_CLOSED, 64));
+    from.count = 0;
+    CHECK_STATUS(CARVEL_STATUS_LENGTH_MISMATCH, REFINE(CARVEL_ENDS_CLOSED, 1));
+    from.count = 1;
+    CHECK_STATUS(CARVEL_STATUS_LENGTH_MISMATCH, REFINE(CARVEL_ENDS_KEPT, 1));
+    from.count = 4;
+    to.width = 2;
+    CHECK_STATUS(CARVEL_STATUS_LENGTH_MISMATCH, REFINE(CARVEL_ENDS_CLOSED, 1));
+    from.width = to.width = 0;
+    CHECK_STATUS(CARVEL_STATUS_PARAMETER_OUT_OF_RANGE, REFINE(CARVEL_ENDS_CLOSED, 1));
+    from.width = to.width = 1;
+    to.stride = 4;
+    CHECK_STATUS(CARVEL_STATUS_INVALID_STRIDE, REFINE(CARVEL_ENDS_CLOSED, 1));
+    to.stride = 0;
+    from.data = out;
+    CHECK_STATUS(CARVEL_STATUS_OVERLAP, REFINE(CARVEL_ENDS_CLOSED, 1));
+    memcpy(nan_at_2, line, sizeof line);
+    nan_at_2[2] = nan("");
+    from.data = nan_at_2;
+    CHECK_STATUS(CARVEL_STATUS_NOT_FINITE, REFINE(CARVEL_ENDS_CLOSED, 1));
+    CHECK_ELEMENT(0, 0, CARVEL_ELEMENT_VERTEX, 2, 0);
+    from.data = line;
+    CHECK_STATUS(CARVEL_STATUS_NULL_POINTER,
+                 carvel_mask_refine_f64(NULL, NULL, 0, 1, &from, &to, failure));
+    CHECK_STATUS(CARVEL_STATUS_NULL_POINTER,
+                 carvel_mask_refine_f64(mask, NULL, 0, 1, NULL, &to, failure));
+    CHECK_STATUS(CARVEL_STATUS_NULL_POINTER,
+                 carvel_mask_refine_f64(mask, NULL, 0, 1, &from, NULL, failure));
+    carvel_context_cancel(context);
+    CHECK_STATUS(CARVEL_STATUS_CANCELLED,
+                 carvel_mask_refine_f64(mask, context, 0, 1, &from, &to, failure));
+    CHECK_STATUS(CARVEL_STATUS_CANCELLED,
+                 carvel_mask_analyse(mask, context, &analysis, failure));
+    CHECK_STATUS(CARVEL_STATUS_UNSUPPORTED,
+                 carvel_mask_counts(lopsided, CARVEL_ENDS_KEPT, 4, 1, &counts, failure));
+    CHECK_STATUS(CARVEL_STATUS_NULL_POINTER,
+                 carvel_mask_counts(mask, CARVEL_ENDS_KEPT, 4, 1, NULL, failure));
+    CHECK_STATUS(CARVEL_STATUS_TOO_LARGE,
+                 carvel_mask_counts(mask, CARVEL_ENDS_CLOSED, UINT64_MAX, 1, &counts, failure));
+    CHECK_STATUS(CARVEL_STATUS_UNSUPPORTED, carvel_mask_scheme(ternary, &scheme, failure));
+    CHECK_STATUS(CARVEL_STATUS_UNSUPPORTED, carvel_mask_scheme(lopsided, &scheme, failure));
+    CHECK_STATUS(CARVEL_STATUS_NULL_POINTER, carvel_mask_scheme(mask, NULL, failure));
+    CHECK_STATUS(CARVEL_STATUS_TOO_LARGE, carvel_mask_coefficients(huge, list, 4, NULL, failure));
+    CHECK_STATUS(CARVEL_STATUS_BUFFER_TOO_SMALL,
+                 carvel_mask_coefficients(mask, list, 3, NULL, failure));
+    CHECK_STATUS(CARVEL_STATUS_NULL_POINTER,
+                 carvel_mask_analyse(mask, NULL, NULL, failure));
+    carvel_context_destroy(context);
+    carvel_mask_destroy(mask);
+    carvel_mask_destroy(lopsided);
+    carvel_mask_destroy(ternary);
+    carvel_mask_destroy(huge);
+}
+
+int main(void)
+{
+    check_begin();
+    check_square();
+    check_ends();
+    check_paper();
+    check_features();
+    check_texts();
+    check_refused();
+    return check_end();
+}

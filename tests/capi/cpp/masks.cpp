@@ -1,0 +1,35 @@
+/* Masks through C++: every function, with values known by hand. */
+#include "check.hpp"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+int main()
+{
+    const carvel::Mask chaikin = carvel::Mask::create("chaikin");
+    const std::vector<std::array<double, 2>> square = {{{0, 0}}, {{4, 0}}, {{4, 4}}, {{0, 4}}};
+    const std::vector<double> expected = {1, 0, 3, 0, 4, 1, 4, 3, 3, 4, 1, 4, 0, 3, 0, 1};
+    CHECK(chaikin.refine(CARVEL_ENDS_CLOSED, 1, square) == expected);
+    std::vector<std::array<double, 2>> out(8);
+    chaikin.refine_into(CARVEL_ENDS_CLOSED, 1, square, out);
+    CHECK(out[2][0] == 4 && out[2][1] == 1);
+    CHECK(chaikin.counts(CARVEL_ENDS_CLOSED, 4, 3).points == 32);
+    CHECK(chaikin.coefficients().size() == 4);
+
+    const carvel::Mask paper = carvel::Mask::create("[1,9,22,22,9,1]/32", 2);
+    const carvel::MaskAnalysis found = paper.analyse();
+    CHECK(found.continuity == 2 && found.proof_norm.numerator == 3);
+    const carvel::Scheme scheme = paper.scheme();
+    CHECK(scheme.passes().size() == 1 && scheme.passes()[0].denominator == 2);
+    const carvel::FeatureAnalysis at = scheme.analyse(CARVEL_FEATURE_INTERIOR, 5);
+    CHECK(at.tangent == CARVEL_TANGENT_CONTINUOUS);
+    CHECK(std::fabs(at.lambda - 0.5384) < 1e-4);
+
+    const auto none = carvel::Mask::try_create("chakin");
+    CHECK(!none && none.error().status() == CARVEL_STATUS_INVALID_NUMBER);
+    const auto few = chaikin.try_refine(CARVEL_ENDS_KEPT, 1, std::vector<double>{1, 2, 3});
+    CHECK(!few && few.error().status() == CARVEL_STATUS_LENGTH_MISMATCH);
+    CHECK(!carvel::Mask::create("weissman").try_scheme());
+    std::puts("masks: ok");
+}
