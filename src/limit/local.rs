@@ -242,6 +242,7 @@ impl<W: Weight> LocalMatrix<W> {
     }
 
     /// The vertices of an orbit in the mesh of the model.
+    #[cfg(feature = "analysis")]
     pub(crate) fn orbit_vertices(&self, orbit: usize) -> &[u32] {
         &self.vertices[orbit]
     }
