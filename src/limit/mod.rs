@@ -14,6 +14,7 @@
 //! | `part` | a part of a mesh |
 //! | `rows` | the limits of all vertices, whatever is near them |
 //! | `limits` | positions, tangents, normals |
+//! | `surface` | any point, between vertices too |
 
 mod centres;
 mod feature;
@@ -23,6 +24,7 @@ mod neighbourhood;
 mod part;
 mod rows;
 mod rule;
+mod surface;
 mod weights;
 
 pub use feature::Feature;
@@ -30,3 +32,4 @@ pub use limits::Limits;
 pub use local::LocalMatrix;
 #[cfg(feature = "analysis")]
 pub(crate) use local::{Model, control_reach};
+pub use surface::{Derivatives, Sample, Surface, SurfaceWeight};

@@ -1,0 +1,108 @@
+//! Derivatives against differences.
+
+use super::{Shape, WIDTH, at, bases, closed_meshes, quad_schemes};
+use carvel::limit::{Derivatives, Surface};
+use carvel::{Context, ErrorKind, Scheme};
+
+/// Differences of positions this far apart, for first and second derivatives.
+const STEPS: [f64; 2] = [1e-5, 1e-4];
+/// Their errors, of the largest value: rounding over the step, and the step squared.
+const ERRORS: [f64; 2] = [1e-7, 1e-4];
+
+fn check(shape: &Shape, surface: &Surface, face: usize, sector: usize, uv: [f64; 2]) {
+    let has_second = {
+        let mut out = vec![0.0; WIDTH * 6];
+        let sample = [at(face, sector, uv)];
+        let second = Derivatives::Second;
+        surface
+            .evaluate(&Context::serial(), &sample, &shape.values, WIDTH, second, &mut out)
+            .is_ok()
+    };
+    let kind = if has_second { Derivatives::Second } else { Derivatives::First };
+    let found = shape.evaluate(surface, at(face, sector, uv), kind);
+    let records = if has_second { vec![3, 4, 5] } else { vec![] };
+    let scale = found.iter().fold(1.0, |most: f64, x| most.max(x.abs()));
+    let moved = |du: f64, dv: f64, derivatives| {
+        shape.evaluate(surface, at(face, sector, [uv[0] + du, uv[1] + dv]), derivatives)
+    };
+    let differences = |step: f64, by_v: bool, derivatives| {
+        let (du, dv) = if by_v { (0.0, step) } else { (step, 0.0) };
+        let [on, back] = [moved(du, dv, derivatives), moved(-du, -dv, derivatives)];
+        on.iter().zip(back).map(|(a, b)| (a - b) / (2.0 * step)).collect::<Vec<f64>>()
+    };
+    let near = |a: f64, b: f64, error: f64, what: usize| {
+        assert!(
+            (a - b).abs() <= error * scale,
+            "record {what} at {face} {sector} {uv:?}: {a}, not {b}"
+        );
+    };
+    for by_v in [false, true] {
+        let slopes = differences(STEPS[0], by_v, Derivatives::None);
+        for k in 0..WIDTH {
+            let record = 1 + usize::from(by_v);
+            near(found[record * WIDTH + k], slopes[k], ERRORS[0], record);
+        }
+        if records.is_empty() {
+            continue;
+        }
+        let bends = differences(STEPS[1], by_v, Derivatives::First);
+        for k in 0..WIDTH {
+            let [first, second] = if by_v { [4, 5] } else { [3, 4] };
+            near(found[first * WIDTH + k], bends[WIDTH + k], ERRORS[1], first);
+            near(found[second * WIDTH + k], bends[2 * WIDTH + k], ERRORS[1], second);
+        }
+    }
+}
+
+#[test]
+fn derivatives_are_limits_of_differences() {
+    for of in closed_meshes() {
+        let shape = Shape::new(&of);
+        for scheme in quad_schemes() {
+            let surface = shape.surface(&scheme);
+            let faces = [0, of.faces.len() / 2, of.faces.len() - 1];
+            for (face, uv) in faces.iter().zip([[0.31, 0.77], [0.87, 0.83], [0.66, 0.22]]) {
+                let sector = surface.sectors(*face) - 1;
+                check(&shape, &surface, *face, sector, uv);
+            }
+        }
+    }
+}
+
+#[test]
+fn triangles_and_boundaries_have_them_too() {
+    let scheme = Scheme::loop_triangles();
+    for of in [bases::bipyramid(5), bases::bipyramid(6), bases::triangle_grid(4, 4)] {
+        let shape = Shape::new(&of);
+        let surface = shape.surface(&scheme);
+        (0..of.faces.len()).for_each(|face| check(&shape, &surface, face, 0, [0.31, 0.43]));
+    }
+    for scheme in quad_schemes() {
+        let shape = Shape::new(&bases::grid(5, 5));
+        let surface = shape.surface(&scheme);
+        check(&shape, &surface, 7, 0, [0.31, 0.43]);
+        check(&shape, &surface, 12, 0, [0.61, 0.23]);
+    }
+}
+
+/// A surface of polynomials does not take part in what is not smooth.
+#[test]
+fn what_does_not_exist_is_refused() {
+    let shape = Shape::new(&bases::cube());
+    let kind = |scheme: &Scheme, uv: [f64; 2], derivatives: Derivatives| {
+        let mut out = vec![0.0; WIDTH * derivatives.records()];
+        let context = Context::serial();
+        let surface = shape.surface(scheme);
+        let samples = [at(2, 0, uv)];
+        let done =
+            surface.evaluate(&context, &samples, &shape.values, WIDTH, derivatives, &mut out);
+        done.err().map(|error| error.kind())
+    };
+    let four = Scheme::primal(&[carvel::Fraction::ZERO, super::fraction(3, 1)]).unwrap();
+    assert_eq!(kind(&four, [0.3, 0.6], Derivatives::First), None);
+    let refused = Some(ErrorKind::Unsupported);
+    assert_eq!(kind(&four, [0.3, 0.6], Derivatives::Second), refused);
+    assert_eq!(kind(&Scheme::catmull_clark(), [0.0, 1.0], Derivatives::First), refused);
+    assert_eq!(kind(&Scheme::catmull_clark(), [0.0, 1.0], Derivatives::None), None);
+    assert_eq!(kind(&Scheme::catmull_clark(), [0.0, 1.0 - 1e-9], Derivatives::Second), None);
+}
