@@ -85,7 +85,43 @@ fn triangles_and_boundaries_have_them_too() {
     }
 }
 
-/// A surface of polynomials does not take part in what is not smooth.
+/// Exactly on a boundary there are derivatives, too: those just inside.
+#[test]
+fn boundaries_have_derivatives() {
+    let check = |shape: &Shape, scheme: &Scheme, face: usize, [u, v]: [f64; 2]| {
+        let surface = shape.surface(scheme);
+        let on = shape.evaluate(&surface, at(face, 0, [u, v]), Derivatives::First);
+        let (u, v) = (u + 1e-9 * (0.3 - u).signum(), v + 1e-9 * (0.3 - v).signum());
+        let inside = shape.evaluate(&surface, at(face, 0, [u, v]), Derivatives::First);
+        super::assert_near(&on, &inside, 1e-7, &format!("{scheme:?}, face {face}"));
+    };
+    let triangles = Shape::new(&bases::triangle_grid(6, 6));
+    let mesh = &triangles.mesh;
+    let regular = |&v: &u32| {
+        let full = if mesh.is_boundary_vertex(v as usize) { 3 } else { 6 };
+        mesh.valence(v as usize) == full
+    };
+    let mut seen = 0;
+    for face in 0..mesh.faces() {
+        let first = mesh.face_corners(face).start;
+        let open = |place: usize| mesh.corner_twins()[first + place] == u32::MAX;
+        if mesh.face_vertices(face).iter().all(regular) {
+            for (_, uv) in [(0, [0.4, 0.0]), (2, [0.0, 0.6])].iter().filter(|(p, _)| open(*p)) {
+                check(&triangles, &Scheme::loop_triangles(), face, *uv);
+                seen += 1;
+            }
+        }
+    }
+    assert!(seen > 4, "regular boundary triangles");
+    let quads = Shape::new(&bases::grid(5, 5));
+    let four = Scheme::primal(&[carvel::Fraction::ZERO, super::fraction(3, 1)]).unwrap();
+    for scheme in quad_schemes().into_iter().filter(|scheme| *scheme != four) {
+        check(&quads, &scheme, 2, [0.0, 0.4]);
+        check(&quads, &scheme, 0, [0.0, 0.0]);
+    }
+}
+
+/// Derivatives of schemes that are not smooth enough, and at features.
 #[test]
 fn what_does_not_exist_is_refused() {
     let shape = Shape::new(&bases::cube());

@@ -5,7 +5,7 @@
 //! "Evaluation of Loop subdivision surfaces").
 
 use crate::base::NONE;
-use crate::mesh::Mesh;
+use crate::mesh::{INFINITE, Mesh};
 use crate::scheme::Scheme;
 
 /// A factor and the exponents of three coordinates.
@@ -83,30 +83,66 @@ fn derived(term: Term, order: [usize; 3], at: [f64; 3], by: [usize; 2]) -> f64 {
     part(axis + 1, 1.0) + part(0, -1.0)
 }
 
-/// The twelve vertices of a triangle whose corners are interior, smooth and of valence 6:
-/// the corners, those across the edges, and beside each corner those next to the edge that
-/// leaves it and next to the one that comes to it.
-pub(super) fn points(scheme: &Scheme, mesh: &Mesh, corner: u32) -> Option<Vec<u32>> {
+/// Vertices with factors.
+pub(super) type Row = Vec<(u32, f64)>;
+
+/// The twelve points of a triangle whose corners are of valence 6, or half of that on a
+/// boundary or an edge that is sharp for ever: the corners, those across the edges, and beside
+/// each corner those next to the edge that leaves it and next to the one that comes to it.
+pub(super) fn points(scheme: &Scheme, mesh: &Mesh, corner: u32) -> Option<[Row; 12]> {
     let corners = [corner, mesh.next(corner), mesh.prev(corner)];
-    let mut points = vec![0; 12];
+    let mut points: [Row; 12] = Default::default();
     for (i, &c) in corners.iter().enumerate() {
-        let mut ring = [0; 6];
-        let mut fan = mesh.fan_from(c);
-        for slot in &mut ring {
-            let at = fan.next()?;
-            if mesh.twin[at as usize] == NONE || mesh.sharpness.edge(mesh.first_of_edge(at)) > 0.0 {
-                return None;
-            }
-            *slot = mesh.vert[mesh.next(at) as usize];
-        }
-        let v = mesh.vert[c as usize];
-        if fan.next().is_some() || scheme.vertex_sharpness(mesh, v) > 0.0 {
-            return None;
-        }
-        points[i] = v;
-        points[3 + i] = ring[5];
-        points[6 + i] = ring[4];
-        points[9 + i] = ring[3];
+        let [.., third, fourth, fifth] = ring(scheme, mesh, c)?;
+        points[i] = vec![(mesh.vert[c as usize], 1.0)];
+        (points[3 + i], points[6 + i], points[9 + i]) = (fifth, fourth, third);
     }
     Some(points)
+}
+
+/// The points around the vertex of a corner, counter-clockwise from the end of its edge.
+///
+/// Beyond a boundary they are those that make a parallelogram of each triangle there and
+/// its image, b + c − a: then the smooth rules come to those of the boundary.
+fn ring(scheme: &Scheme, mesh: &Mesh, corner: u32) -> Option<[Row; 6]> {
+    let v = mesh.vert[corner as usize];
+    let (mut sharp, mut passing) = (0, scheme.vertex_sharpness(mesh, v) > 0.0);
+    mesh.each_edge_at(v, |_, sharpness| {
+        sharp += usize::from(sharpness >= INFINITE);
+        passing |= sharpness > 0.0 && sharpness < INFINITE;
+    });
+    let end = |c: u32| mesh.vert[mesh.next(c) as usize];
+    match sharp {
+        _ if passing => None,
+        0 => {
+            let mut fan = mesh.fan_from(corner);
+            let mut ring: [Row; 6] = Default::default();
+            for slot in &mut ring {
+                slot.push((end(fan.next()?), 1.0));
+            }
+            fan.next().is_none().then_some(ring)
+        }
+        2 => {
+            let is_end = |c: u32| {
+                let twin = mesh.twin[c as usize];
+                twin == NONE || mesh.sharpness.edge(mesh.first_of_edge(c)) >= INFINITE
+            };
+            let back = |&c: &u32| (!is_end(c)).then(|| mesh.cw(c));
+            let way: Vec<u32> = std::iter::successors(Some(corner), back).take(4).collect();
+            let first = *way.last()?;
+            let side: Vec<u32> = mesh.fan_from(first).take(3).collect();
+            let &[_, second, third] = &side[..] else { return None };
+            let last = mesh.prev(third);
+            if !is_end(first) || is_end(second) || is_end(third) || !is_end(last) {
+                return None;
+            }
+            let near = [end(first), end(second), end(third), mesh.vert[last as usize]];
+            let beyond = |a: usize, b: usize| vec![(near[a], 1.0), (v, 1.0), (near[b], -1.0)];
+            let [a, b, c, d] = near.map(|v| vec![(v, 1.0)]);
+            let mut ring = [a, b, c, d, beyond(3, 2), beyond(0, 1)];
+            ring.rotate_left(way.len() - 1);
+            Some(ring)
+        }
+        _ => None,
+    }
 }

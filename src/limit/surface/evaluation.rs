@@ -77,7 +77,8 @@ impl Patches<'_> {
                     let child = children[place].as_ref();
                     let child = child.ok_or_else(|| unsupported("there is no surface"))?;
                     let there = map.apply(at);
-                    let stays = child.node == node && there == at;
+                    let stays =
+                        child.node == node && (0..2).all(|k| there[k].to_bits() == at[k].to_bits());
                     if stays && out.len() > width {
                         return Err(unsupported("derivatives do not exist at a feature"));
                     }
@@ -122,7 +123,9 @@ impl Patches<'_> {
                 let taps = &mut scratch.taps[axis][order];
                 univariate.taps(x, order, taps);
                 fold(taps, self.window[0], extent[axis]);
-                taps.iter_mut().for_each(|w| *w *= scale);
+                for weight in taps.iter_mut() {
+                    *weight *= scale;
+                }
                 scale *= if is_dual { 0.5 } else { 1.0 };
             }
         }

@@ -118,9 +118,21 @@ impl<'a> Builder<'a> {
     ) -> Result<u32> {
         points.clear();
         let kind = Kind::at(scheme, mesh, corner);
-        if let Some((name, node, vertices)) = regular(scheme, mesh, corner, kind) {
-            memory::extend(points, vertices)?;
-            return Ok(self.named(name, node)?.0);
+        match kind {
+            Kind::Sector => {}
+            Kind::Triangle => {
+                if let Some(rows) = box_spline::points(scheme, mesh, corner) {
+                    return self.triangle(&rows, points);
+                }
+            }
+            Kind::Quad | Kind::Quarter => {
+                if let Some(grid) = (Finder { scheme, mesh, window: window(scheme) }).grid(corner) {
+                    memory::extend(points, grid.vertices)?;
+                    let extent = grid.extent.as_flattened().iter().map(|&x| x as u32);
+                    let name = [NONE, 3].into_iter().chain(extent).collect();
+                    return Ok(self.named(name, Node::Grid(grid.extent))?.0);
+                }
+            }
         }
         let refused =
             |of: &mut Self, name: u32, why| Ok(of.named(vec![NONE, name], Node::Refused(why))?.0);
@@ -138,6 +150,33 @@ impl<'a> Builder<'a> {
             memory::extend(&mut self.open, [(node, vicinity)])?;
         }
         Ok(node)
+    }
+
+    /// The node of a regular triangle with points that may lie beyond a boundary.
+    fn triangle(&mut self, rows: &[box_spline::Row], points: &mut Vec<u32>) -> Result<u32> {
+        let node = self.named(vec![NONE, 2], Node::Triangle)?.0;
+        if rows.iter().all(|row| row.len() == 1) {
+            memory::extend(points, rows.iter().map(|row| row[0].0))?;
+            return Ok(node);
+        }
+        let mut child = Child { node, offsets: vec![0], entries: Vec::new() };
+        let mut name = vec![NONE, 4];
+        for row in rows {
+            for &(v, weight) in row {
+                let known = points.iter().position(|&point| point == v);
+                let place = known.unwrap_or(points.len()) as u32;
+                if known.is_none() {
+                    memory::extend(points, [v])?;
+                }
+                child.entries.push((place, weight));
+                name.extend([place, u32::from(weight > 0.0)]);
+            }
+            child.offsets.push(child.entries.len() as u32);
+        }
+        name.extend(&child.offsets);
+        // The triangle itself, with points for which it is regular.
+        let whole = Node::Split { kind: Kind::Sector, children: vec![Some(child)] };
+        Ok(self.named(name, whole)?.0)
     }
 
     /// The number of the node of a name, and whether it is new.
@@ -191,27 +230,5 @@ impl<'a> Builder<'a> {
             children.push(Some(child));
         }
         Ok(Node::Split { kind: vicinity.kind, children })
-    }
-}
-
-/// A regular cell: its name, node and vertices.
-fn regular(
-    scheme: &Scheme,
-    mesh: &Mesh,
-    corner: u32,
-    kind: Kind,
-) -> Option<(Vec<u32>, Node, Vec<u32>)> {
-    match kind {
-        Kind::Sector => None,
-        Kind::Triangle => {
-            let points = box_spline::points(scheme, mesh, corner)?;
-            Some((vec![NONE, 2], Node::Triangle, points))
-        }
-        Kind::Quad | Kind::Quarter => {
-            let grid = Finder { scheme, mesh, window: window(scheme) }.grid(corner)?;
-            let extent = grid.extent.as_flattened().iter().map(|&x| x as u32);
-            let name = [NONE, 3].into_iter().chain(extent).collect();
-            Some((name, Node::Grid(grid.extent), grid.vertices))
-        }
     }
 }

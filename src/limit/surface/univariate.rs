@@ -138,7 +138,9 @@ impl Digits {
         for _ in 0..ROUNDS {
             row = digits.times(&row, 0);
             let sum: f64 = row.iter().sum();
-            row.iter_mut().for_each(|w| *w /= sum);
+            for weight in &mut row {
+                *weight /= sum;
+            }
         }
         let next = digits.times(&row, 0);
         let moved = row.iter().zip(&next).fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()));
