@@ -5,7 +5,7 @@ use super::{
     primal_schemes, quad_schemes, with_boundaries,
 };
 use carvel::limit::{Limits, Surface};
-use carvel::{Context, Hierarchy, Records, RecordsMut, Scheme, SplitKind};
+use carvel::{Context, Hierarchy, Mesh, Records, RecordsMut, Scheme, SplitKind};
 
 /// A face of a refined mesh: where its corners lie in a control face.
 #[derive(Clone)]
@@ -53,17 +53,32 @@ fn pieces(hierarchy: &Hierarchy, surface: &Surface, level: u32) -> Vec<Piece> {
     pieces
 }
 
+/// Limits of the vertices of a level.
+fn limits(shape: &Shape, hierarchy: &Hierarchy, level: u32) -> Vec<f64> {
+    let context = Context::serial();
+    let mesh = hierarchy.shared_mesh(level).unwrap();
+    let mut refined = vec![0.0; WIDTH * mesh.vertices()];
+    hierarchy.refine(&context, level, &shape.values, WIDTH, &mut refined).unwrap();
+    let limits = Limits::<f64>::new(&context, &mesh, hierarchy.scheme()).unwrap();
+    let mut limit = vec![0.0; refined.len()];
+    let out = RecordsMut::packed(&mut limit, WIDTH);
+    limits.position().apply(&context, Records::packed(&refined, WIDTH), out).unwrap();
+    limit
+}
+
+/// The face of a corner, and its place there.
+fn place(mesh: &Mesh, corner: usize) -> (usize, usize) {
+    let face = (0..mesh.faces()).find(|&face| mesh.face_corners(face).contains(&corner));
+    let face = face.expect("a corner of the mesh");
+    (face, corner - mesh.face_corners(face).start)
+}
+
 fn check_primal(shape: &Shape, scheme: &Scheme, level: u32) {
     let surface = shape.surface(scheme);
     let context = Context::serial();
     let hierarchy = Hierarchy::new(&context, shape.mesh.clone(), scheme.clone(), level).unwrap();
     let mesh = hierarchy.shared_mesh(level).unwrap();
-    let mut refined = vec![0.0; WIDTH * mesh.vertices()];
-    hierarchy.refine(&context, level, &shape.values, WIDTH, &mut refined).unwrap();
-    let limits = Limits::<f64>::new(&context, &mesh, scheme).unwrap();
-    let mut limit = vec![0.0; refined.len()];
-    let out = RecordsMut::packed(&mut limit, WIDTH);
-    limits.position().apply(&context, Records::packed(&refined, WIDTH), out).unwrap();
+    let limit = limits(shape, &hierarchy, level);
     for (face, piece) in pieces(&hierarchy, &surface, level).iter().enumerate() {
         for (&v, &uv) in mesh.face_vertices(face).iter().zip(&piece.corners) {
             let found = shape.point(&surface, at(piece.face, piece.sector, uv));
@@ -77,7 +92,9 @@ fn check_primal(shape: &Shape, scheme: &Scheme, level: u32) {
 #[test]
 fn primal_surfaces_meet_the_limits_of_refined_vertices() {
     for of in closed_meshes() {
-        primal_schemes().iter().for_each(|scheme| check_primal(&Shape::new(&of), scheme, 2));
+        for scheme in primal_schemes() {
+            check_primal(&Shape::new(&of), &scheme, 2);
+        }
     }
 }
 
@@ -95,7 +112,9 @@ fn so_they_do_at_creases() {
     for of in [bases::cube(), bases::torus(5, 4), bases::grid(3, 3)] {
         let uniform = Scheme::catmull_clark();
         let chaikin = uniform.clone().with_creasing(carvel::Creasing::Chaikin);
-        [uniform, chaikin].iter().for_each(|scheme| check_primal(&Shape::creased(&of), scheme, 2));
+        for scheme in [uniform, chaikin] {
+            check_primal(&Shape::creased(&of), &scheme, 2);
+        }
     }
 }
 
@@ -125,18 +144,10 @@ fn dual_surfaces_meet_the_limits_inside_faces() {
         let hierarchy = Hierarchy::new(&context, shape.mesh.clone(), scheme.clone(), 2).unwrap();
         for level in 0..=2 {
             let mesh = hierarchy.shared_mesh(level).unwrap();
-            let mut refined = vec![0.0; WIDTH * mesh.vertices()];
-            hierarchy.refine(&context, level, &shape.values, WIDTH, &mut refined).unwrap();
-            let limits = Limits::<f64>::new(&context, &mesh, &scheme).unwrap();
-            let mut limit = vec![0.0; refined.len()];
-            let out = RecordsMut::packed(&mut limit, WIDTH);
-            limits.position().apply(&context, Records::packed(&refined, WIDTH), out).unwrap();
+            let limit = limits(&shape, &hierarchy, level);
             // The child of the face of each control corner, and its corner there.
             for corner in 0..shape.mesh.corners() {
-                let face = (0..shape.mesh.faces())
-                    .find(|&f| shape.mesh.face_corners(f).contains(&corner))
-                    .unwrap();
-                let place = corner - shape.mesh.face_corners(face).start;
+                let (face, place) = place(&shape.mesh, corner);
                 let mut at_level = corner;
                 for step in 0..level {
                     at_level = child_corner(&hierarchy, step, at_level);
@@ -167,7 +178,7 @@ fn dual_surfaces_meet_the_limits_inside_faces() {
 fn child_corner(hierarchy: &Hierarchy, level: u32, corner: usize) -> usize {
     use carvel::refine::FaceOrigin;
     let [parent, child] = [hierarchy.mesh(level), hierarchy.mesh(level + 1)];
-    let face = (0..parent.faces()).find(|&f| parent.face_corners(f).contains(&corner)).unwrap();
+    let (face, _) = place(parent, corner);
     let origins = hierarchy.face_origins(level + 1).unwrap();
     let image = origins.iter().position(|&o| o == FaceOrigin::Face(face as u32)).unwrap();
     child.face_corners(image).find(|&c| child.corner_vertices()[c] as usize == corner).unwrap()
@@ -180,15 +191,9 @@ fn surfaces_are_continuous() {
         let shape = Shape::new(of);
         let surface = shape.surface(scheme);
         let (vert, twin) = (shape.mesh.corner_vertices(), shape.mesh.corner_twins());
-        let place = |corner: usize| {
-            let face = (0..shape.mesh.faces())
-                .find(|&f| shape.mesh.face_corners(f).contains(&corner))
-                .unwrap();
-            (face, corner - shape.mesh.face_corners(face).start)
-        };
         // A point on a corner's edge.
         let on_edge = |corner: usize, t: f64| {
-            let (face, place) = place(corner);
+            let (face, place) = place(&shape.mesh, corner);
             let sides = shape.mesh.face_corners(face).len();
             match (surface.sectors(face), sides) {
                 (1, 3) => at(face, 0, [[t, 0.0], [1.0 - t, t], [0.0, 1.0 - t]][place]),
@@ -214,7 +219,9 @@ fn surfaces_are_continuous() {
         }
     };
     for of in closed_meshes() {
-        quad_schemes().iter().for_each(|scheme| check(&of, scheme));
+        for scheme in quad_schemes() {
+            check(&of, &scheme);
+        }
     }
     check(&bases::bipyramid(5), &Scheme::loop_triangles());
 }

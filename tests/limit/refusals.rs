@@ -3,7 +3,7 @@
 use super::{Shape, WIDTH, at, bases};
 use carvel::limit::{Derivatives, Sample, Surface};
 use carvel::mesh::BuildOptions;
-use carvel::{Boundary, Context, Element, ErrorKind, Scheme};
+use carvel::{Boundary, Context, Element, ErrorKind, Extraordinary, Hierarchy, Scheme};
 
 #[track_caller]
 fn refused(shape: &Shape, surface: &Surface, sample: Sample, kind: ErrorKind) {
@@ -75,4 +75,23 @@ fn holes_and_ends_have_no_surface() {
         &mut out,
     );
     assert_eq!(done.expect_err("an error").kind(), ErrorKind::Unsupported);
+}
+
+#[test]
+fn surfaces_that_are_not_evaluated_are_refused_whole() {
+    let kind = |shape: &Shape, scheme: &Scheme| {
+        Surface::new(&Context::serial(), &shape.mesh, scheme).expect_err("an error").kind()
+    };
+    let shape = Shape::new(&bases::cube());
+    let paper = Scheme::three_point(super::fraction(1, 32)).unwrap();
+    let tuned = paper.clone().with_extraordinary(Extraordinary::Tuned).unwrap();
+    assert_eq!(kind(&shape, &tuned), ErrorKind::Unsupported);
+    assert_eq!(kind(&shape, &Scheme::loop_triangles()), ErrorKind::Unsupported);
+    let wild = Scheme::primal(&[super::fraction(900, 1)]).unwrap();
+    assert_eq!(kind(&shape, &wild), ErrorKind::Unsupported);
+    let open = Shape::new(&bases::grid(3, 3));
+    let hierarchy = Hierarchy::new(&Context::serial(), open.mesh, paper.clone(), 1).unwrap();
+    let refined = hierarchy.shared_mesh(1).unwrap();
+    let error = Surface::new(&Context::serial(), &refined, &paper).expect_err("an error");
+    assert_eq!(error.kind(), ErrorKind::Unsupported);
 }
