@@ -89,6 +89,9 @@ fn surfaces_that_are_not_evaluated_are_refused_whole() {
     assert_eq!(kind(&shape, &Scheme::loop_triangles()), ErrorKind::Unsupported);
     let wild = Scheme::primal(&[super::fraction(900, 1)]).unwrap();
     assert_eq!(kind(&shape, &wild), ErrorKind::Unsupported);
+    let little = Context::builder().memory_ceiling(100).build().unwrap();
+    let error = Surface::new(&little, &shape.mesh, &paper).expect_err("an error");
+    assert_eq!(error.kind(), ErrorKind::MemoryCeiling);
     let open = Shape::new(&bases::grid(3, 3));
     let hierarchy = Hierarchy::new(&Context::serial(), open.mesh, paper.clone(), 1).unwrap();
     let refined = hierarchy.shared_mesh(1).unwrap();

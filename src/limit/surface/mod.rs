@@ -128,7 +128,8 @@ impl Surface {
     /// As [`Scheme::check`]; [`ErrorKind::Unsupported`] for a mesh that is not manifold or is
     /// anchored with a boundary, for the tuned rule at extraordinary faces, and for a scheme
     /// that does not converge on regular grids;
-    /// [`ErrorKind::TooLarge`], [`ErrorKind::OutOfResources`], [`ErrorKind::Cancelled`].
+    /// [`ErrorKind::TooLarge`], [`ErrorKind::MemoryCeiling`], [`ErrorKind::OutOfResources`],
+    /// [`ErrorKind::Cancelled`].
     pub fn new(context: &Context, mesh: &Arc<Mesh>, scheme: &Scheme) -> Result<Self> {
         scheme.check(mesh)?;
         let unsupported = |message| Err(Error::new(ErrorKind::Unsupported, message));
@@ -143,6 +144,7 @@ impl Surface {
         }
         let univariate = Univariate::new(scheme)?;
         let window = nodes::window(scheme);
+        context.check_memory(bytes(mesh, scheme, window))?;
         let mut builder = Builder::new(scheme);
         let mut roots = memory::filled(Root { node: NONE, start: 0 }, mesh.corners())?;
         let (mut points, mut cell) = (Vec::new(), Vec::new());
@@ -354,6 +356,17 @@ impl Surface {
         let node = self.roots[corner as usize].node;
         Ok((corner, Start { node, at, jacobian: linear }))
     }
+}
+
+/// About the memory of a surface, were all its cells regular.
+fn bytes(mesh: &Mesh, scheme: &Scheme, [lowest, highest]: [i32; 2]) -> u64 {
+    let corners = mesh.corners() as u64;
+    let (cells, points) = match scheme.method() {
+        Method::Dual => (corners, u64::from(highest.abs_diff(lowest) + 1).pow(2)),
+        Method::Loop => (mesh.faces() as u64, 12),
+        _ => (mesh.faces() as u64, u64::from(highest.abs_diff(lowest) + 1).pow(2)),
+    };
+    size_of::<Root>() as u64 * corners + size_of::<u32>() as u64 * cells * points
 }
 
 /// An error with the face of a sample.
