@@ -101,7 +101,6 @@ inline namespace CARVEL_HPP_STYLE {
 using Bytes = carvel_bytes;
 using Seconds = carvel_seconds;
 using Counts = carvel_counts;
-using FeatureAnalysis = carvel_feature_analysis;
 using MaskAnalysis = carvel_mask_analysis;
 using PolygonCounts = carvel_polygon_counts;
 using Element = carvel_element;
@@ -923,16 +922,6 @@ public:
     /* The faces of a mesh, ascending in its own order, that are holes. */
     Result<std::vector<std::uint32_t>> try_holes(const Mesh &mesh) const;
 
-    /* How smooth its surfaces are around a feature of so many faces. */
-    Result<FeatureAnalysis> try_analyse(carvel_feature feature, std::uint64_t faces) const
-    {
-        detail::Call call;
-        FeatureAnalysis analysis = detail::sized<FeatureAnalysis>();
-        call.status = carvel_scheme_analyse(get(), static_cast<std::int32_t>(feature), faces,
-                                            &analysis, call.error());
-        return call.result(analysis);
-    }
-
     /* The smoothing passes that the scheme comes down to, in lowest terms. */
     Result<std::vector<Fraction>> try_passes() const
     {
@@ -948,10 +937,6 @@ public:
 #if CARVEL_HPP_THROWS
     static Scheme create(const SchemeDesc &desc = {}) { return try_create(desc).value(); }
     std::vector<Fraction> passes() const { return try_passes().value(); }
-    FeatureAnalysis analyse(carvel_feature feature, std::uint64_t faces) const
-    {
-        return try_analyse(feature, faces).value();
-    }
     std::vector<std::uint32_t> holes(const Mesh &mesh) const { return try_holes(mesh).value(); }
 #endif
 };

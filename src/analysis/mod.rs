@@ -6,4 +6,5 @@
 //! | `surface` | surfaces around extraordinary points, by their eigenvalues |
 
 pub mod mask;
+#[cfg(feature = "spectra")]
 pub mod surface;

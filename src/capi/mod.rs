@@ -19,7 +19,6 @@
 // Names and contracts are those of the header.
 #![allow(non_camel_case_types, missing_docs, clippy::missing_safety_doc)]
 
-mod analysis;
 mod buffer;
 mod channel;
 mod context;
@@ -39,7 +38,6 @@ mod stencils;
 mod values;
 mod versioned;
 
-pub use analysis::*;
 pub use channel::*;
 pub use context::*;
 pub use error::*;

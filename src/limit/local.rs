@@ -18,7 +18,7 @@ const STATIONARY: u32 = 1;
 const RING: u32 = 2;
 
 /// Edges to cross to all vertices that decide the surface of two rings of faces around a feature.
-#[cfg(feature = "analysis")]
+#[cfg(feature = "spectra")]
 pub(crate) fn control_reach(scheme: &Scheme) -> u32 {
     6 + 2 * scheme.passes().len() as u32
 }
@@ -59,7 +59,7 @@ impl Model {
     }
 
     /// The faces in the middle, in [`Model::mesh`]: one, or those around a vertex.
-    #[cfg(feature = "analysis")]
+    #[cfg(feature = "spectra")]
     pub(crate) fn innermost(&self) -> Vec<u32> {
         let mesh = self.mesh();
         let first = self.middle[0][0];
@@ -242,7 +242,7 @@ impl<W: Weight> LocalMatrix<W> {
     }
 
     /// The vertices of an orbit in the mesh of the model.
-    #[cfg(feature = "analysis")]
+    #[cfg(feature = "spectra")]
     pub(crate) fn orbit_vertices(&self, orbit: usize) -> &[u32] {
         &self.vertices[orbit]
     }

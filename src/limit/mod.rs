@@ -30,6 +30,6 @@ mod weights;
 pub use feature::Feature;
 pub use limits::Limits;
 pub use local::LocalMatrix;
-#[cfg(feature = "analysis")]
+#[cfg(feature = "spectra")]
 pub(crate) use local::{Model, control_reach};
 pub use surface::{Derivatives, Sample, Surface, SurfaceWeight};

@@ -484,8 +484,9 @@ static void check_hierarchy(const poly *control, const carvel_scheme *scheme, in
     check_stages(control, scheme, split, passes_of(scheme));
 }
 
-/* A step with the tuned rule is one stage, and its values are others from level 2 on. */
-static void check_tuned(const poly *control, int split)
+/* A step with the tuned rule is one stage, and its values are others from the second step on;
+ * later where faces at the boundary are near all that is irregular. */
+static void check_tuned(const poly *control, int split, uint32_t first)
 {
     carvel_mesh *mesh = poly_mesh(control);
     carvel_scheme *plain = NULL, *tuned = NULL;
@@ -498,13 +499,13 @@ static void check_tuned(const poly *control, int split)
     CHECK_OK(carvel_scheme_create(&desc, &tuned, failure));
     CHECK_UINT(1, passes_of(tuned));
     check_stages(control, tuned, split, 0);
-    for (level = 1; level <= LEVELS; level++) {
+    for (level = 1; level <= LEVELS + 1; level++) {
         level64 by_rule, by_default;
         level64_refine(&by_rule, NULL, mesh, tuned, level, control->positions);
         level64_refine(&by_default, NULL, mesh, plain, level, control->positions);
         CHECK((memcmp(by_rule.output.positions.data, by_default.output.positions.data,
                       (size_t)by_rule.counts.vertices * 3 * sizeof(double)) == 0) ==
-              (level == 1));
+              (level < first));
         level64_free(&by_rule);
         level64_free(&by_default);
     }
@@ -574,7 +575,7 @@ int main(void)
     check_begin();
     check_context("cube");
     check_family(cube, CARVEL_SCHEME_THREE_POINT, 0);
-    check_tuned(cube, DUAL);
+    check_tuned(cube, DUAL, 2);
     check_context("grid");
     check_family(grid, CARVEL_SCHEME_DOO_SABIN, 1);
     check_family(grid, CARVEL_SCHEME_B_SPLINE, 1);
@@ -589,7 +590,7 @@ int main(void)
     check_primal(octahedron, CARVEL_SCHEME_LOOP, TRIANGLES);
     check_primal(strip, CARVEL_SCHEME_LOOP, TRIANGLES);
     check_odd_spline(mixed);
-    check_tuned(mixed, ROW);
+    check_tuned(mixed, ROW, 3);
     check_lives_on();
     poly_free(octahedron);
     poly_free(strip);

@@ -1,13 +1,10 @@
 /* Masks: polygons refined as computed by hand, what is proved of a scheme, and every
- * wrong call. Schemes at features. */
+ * wrong call. */
 #include "fixture.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* Eigenvalues, which are computed in double precision. */
-static const double EIGENVALUE = 1e-9;
 
 static carvel_mask *mask_of(const char *text, uint32_t arity)
 {
@@ -148,47 +145,6 @@ static void check_paper(void)
     carvel_mask_destroy(mask);
 }
 
-static void check_features(void)
-{
-    carvel_scheme *doo_sabin = scheme_of(CARVEL_SCHEME_DOO_SABIN, 0);
-    carvel_scheme *clark = scheme_of(CARVEL_SCHEME_CATMULL_CLARK, 0);
-    carvel_feature_analysis it;
-    check_context("features");
-    CHECK_OK(carvel_feature_analysis_init(&it, sizeof it));
-    CHECK_OK(carvel_scheme_analyse(doo_sabin, CARVEL_FEATURE_INTERIOR, 5, &it, failure));
-    CHECK(fabs(it.lambda - 0.5) < EIGENVALUE && fabs(it.mu - 0.25) < EIGENVALUE);
-    CHECK(it.tangent == CARVEL_TANGENT_CONTINUOUS && it.curvature == CARVEL_CURVATURE_GROWING);
-    CHECK(it.is_injective == 1 && it.least_jacobian > 0 && it.sample_count > 0);
-    CHECK_OK(carvel_scheme_analyse(clark, CARVEL_FEATURE_INTERIOR, 3, &it, failure));
-    CHECK(it.curvature == CARVEL_CURVATURE_VANISHING);
-    CHECK_OK(carvel_scheme_analyse(clark, CARVEL_FEATURE_INTERIOR, 4, &it, failure));
-    CHECK(it.curvature == CARVEL_CURVATURE_BOUNDED);
-    CHECK_OK(carvel_scheme_analyse(clark, CARVEL_FEATURE_INTERIOR, 5, &it, failure));
-    CHECK(it.curvature == CARVEL_CURVATURE_UNBOUNDED && it.lambda > 0.5499 && it.lambda < 0.55);
-    CHECK_OK(carvel_scheme_analyse(clark, CARVEL_FEATURE_BOUNDARY, 3, &it, failure));
-    CHECK(it.curvature == CARVEL_CURVATURE_NO_VERDICT);
-    CHECK_OK(carvel_scheme_analyse(clark, CARVEL_FEATURE_CREASE, 4, &it, failure));
-    CHECK(it.tangent == CARVEL_TANGENT_SHARP);
-    CHECK_STATUS(CARVEL_STATUS_UNSUPPORTED,
-                 carvel_scheme_analyse(doo_sabin, CARVEL_FEATURE_DART, 4, &it, failure));
-    CHECK_STATUS(CARVEL_STATUS_PARAMETER_OUT_OF_RANGE,
-                 carvel_scheme_analyse(clark, 5, 4, &it, failure));
-    CHECK_STATUS(CARVEL_STATUS_PARAMETER_OUT_OF_RANGE,
-                 carvel_scheme_analyse(clark, CARVEL_FEATURE_INTERIOR, 2, &it, failure));
-    CHECK_STATUS(CARVEL_STATUS_PARAMETER_OUT_OF_RANGE,
-                 carvel_scheme_analyse(clark, CARVEL_FEATURE_CORNER, UINT64_MAX, &it, failure));
-    CHECK_STATUS(CARVEL_STATUS_NULL_POINTER,
-                 carvel_scheme_analyse(NULL, CARVEL_FEATURE_INTERIOR, 4, &it, failure));
-    CHECK_STATUS(CARVEL_STATUS_NULL_POINTER,
-                 carvel_scheme_analyse(clark, CARVEL_FEATURE_INTERIOR, 4, NULL, failure));
-    it.struct_size = 12;
-    CHECK_STATUS(CARVEL_STATUS_STRUCT_SIZE,
-                 carvel_scheme_analyse(clark, CARVEL_FEATURE_INTERIOR, 4, &it, failure));
-    CHECK_STATUS(CARVEL_STATUS_STRUCT_SIZE, carvel_feature_analysis_init(&it, 12));
-    carvel_scheme_destroy(doo_sabin);
-    carvel_scheme_destroy(clark);
-}
-
 /* ------------------------------------------------------------------ misuse */
 
 static void check_texts(void)
@@ -312,7 +268,6 @@ int main(void)
     check_square();
     check_ends();
     check_paper();
-    check_features();
     check_texts();
     check_refused();
     return check_end();

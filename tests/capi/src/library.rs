@@ -11,7 +11,7 @@ use crate::program::{self, Limit};
 use crate::root;
 
 /// The library, built with the C interface alone.
-#[derive(Debug)]
+#[derive(Debug, Clone)]
 pub struct Library {
     /// Holds `libcarvel.so`, the link of its soname, and `libcarvel.a`.
     pub directory: PathBuf,
@@ -25,11 +25,18 @@ pub struct Library {
     pub soname: String,
 }
 
-/// The library, in the profile of the running test.
+/// All of the debug information, in one unit: without it interfaces compare as equal to anything.
+pub const DESCRIBED: [&str; 2] = [
+    "--config=profile.dev.package.carvel.debug=2",
+    "--config=profile.dev.package.carvel.codegen-units=1",
+];
+
+/// The library, in the profile of the running test; described, if that is the one for
+/// development.
 pub fn library() -> &'static Library {
     static LIBRARY: OnceLock<Library> = OnceLock::new();
     LIBRARY.get_or_init(|| {
-        let extra: &[&str] = if cfg!(debug_assertions) { &[] } else { &["--release"] };
+        let extra: &[&str] = if cfg!(debug_assertions) { &DESCRIBED } else { &["--release"] };
         build(&target_directory(), "cargo", extra, &[])
     })
 }
