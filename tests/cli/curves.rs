@@ -163,7 +163,8 @@ fn what_is_wrong_is_named() {
     bench.put("huge.csv", "0\n1e39\n").put("empty.csv", "\n").put("word.csv", "0 0\n0 zero\n");
     bench.put("mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").put("one.csv", "1,2\n");
     bench.put("same.csv", "0,0\n0,0\n1,1\n").put("wide.csv", "1,2,3,4\n2,3,4,5\n");
-    bench.put("raw.csv", [0xff, 0xfe, 0x00]);
+    bench.put("raw.csv", [0xff, 0xfe, 0x00]).put("vast.csv", "0\n1e999\n");
+    bench.put("long.csv", format!("0,0\n{0},1\n{0},2\n", "9".repeat(400)));
     for (arguments, code, words) in [
         ("square.csv -o out.xyz", 2, "out.xyz: the format is none of csv, obj, svg, png"),
         ("square.ply -o out.csv", 2, "square.ply: the format is none of csv, obj"),
@@ -173,7 +174,9 @@ fn what_is_wrong_is_named() {
         ("word.csv -o out.csv", 3, "word.csv: line 2: 'zero' is not a number"),
         ("nan.csv -o out.csv", 5, "nan.csv: line 2"),
         ("huge.csv -o out.csv --precision f32", 5, "huge.csv: line 2"),
-        ("huge.csv -o out.csv --precision exact", 3, "'1e39' is not a number"),
+        ("vast.csv -o out.csv --precision exact", 5, "vast.csv: line 2"),
+        ("vast.csv -o out.csv", 5, "vast.csv: line 2"),
+        ("long.csv -o out.obj --precision exact", 5, "as a number of OBJ"),
         ("empty.csv -o out.csv", 4, "the file holds no points"),
         ("raw.csv -o out.csv", 3, "not a text in UTF-8"),
         ("mesh.obj -o out.csv", 4, "the file holds no lines (l)"),
@@ -218,4 +221,24 @@ fn points_that_come_back_are_left_out_once() {
     assert_eq!(numbers(&bench.get("out.csv")).len(), 12);
     let run = bench.run_with_input("curve - -o - -n 0", b"1 2\n3 4\n").ok();
     assert_eq!(run.out_text(), "1.0,2.0\n3.0,4.0\n");
+}
+
+/// In a grid and in single numbers a value that comes again is no closing point.
+#[test]
+fn values_that_come_again_stay() {
+    let bench = Bench::new();
+    let run = bench.run_with_input("curve - -o - -n 0 --closed", b"0\n1\n1\n0\n").ok();
+    assert_eq!(run.out_text(), "0.0\n1.0\n1.0\n0.0\n");
+    let rows = b"0,0\n0,0\n0,0\n\n1,0\n0,1\n2,2\n\n0,5\n0,5\n0,5\n";
+    let run = bench.run_with_input("curve - -o - -n 0 --grid --closed", rows).ok();
+    assert_eq!(numbers(run.out_text().as_bytes()).len(), 18);
+}
+
+/// Exponents and points at the end are numbers in exact arithmetic, too, and no header.
+#[test]
+fn exact_decimals() {
+    let bench = Bench::new();
+    let run = "curve - -o - -n 0 --precision exact";
+    let run = bench.run_with_input(run, b"1e-05,2.5E1\n1.,2.\n3,4\n").ok();
+    assert_eq!(run.out_text(), "1/100000,25\n1,2\n3,4\n");
 }

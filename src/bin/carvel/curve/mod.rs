@@ -153,18 +153,22 @@ impl Run<'_> {
         Ok(Done { counts, width, notes, seconds: start.elapsed().as_secs_f64() })
     }
 
-    /// Takes the last points of closed polygons off that repeat the first, and says so.
+    /// Takes the last points of closed polygons off that repeat the first, and says so. Single
+    /// numbers may well come again, and so may points of a row of a grid, unless all rows do so.
     fn notes<T: Number>(&self, control: &mut Polygons<T>) -> Vec<String> {
         let width = control.width;
-        let mut repeated = 0;
-        for polygon in &mut control.list {
-            let points = &mut polygon.points;
-            let last = points.len() - width;
+        let repeats = |polygon: &Control<T>| {
+            let points = &polygon.points;
             let closed = self.args.ends(polygon.closed) == Ends::Closed;
-            if closed && last > 0 && points[..width] == points[last..] {
-                points.truncate(last);
-                repeated += 1;
-            }
+            closed && points.len() > width && points[..width] == points[points.len() - width..]
+        };
+        if width == 1 || (self.args.grid && !control.list.iter().all(repeats)) {
+            return Vec::new();
+        }
+        let mut repeated = 0;
+        for polygon in control.list.iter_mut().filter(|polygon| repeats(polygon)) {
+            polygon.points.truncate(polygon.points.len() - width);
+            repeated += 1;
         }
         let what = counted(repeated, "closed polygon");
         let note = format!("left out the last point of {what}, which repeats the first");

@@ -50,11 +50,19 @@ impl Number for f32 {
 
 impl Number for Rational {
     fn read(text: &str) -> Result<Self, Wrong> {
-        rational::parse(text).map_err(|_| match double(text) {
-            // A double, but not the number that was typed.
-            Ok(_) | Err(Wrong::Text) => Wrong::Text,
-            Err(Wrong::Value) => Wrong::Value,
-        })
+        /// Decimal exponents of doubles, and some more.
+        const LARGEST: i32 = 400;
+        let (mantissa, exponent) = text.split_once(['e', 'E']).unwrap_or((text, "0"));
+        let number = rational::parse(mantissa.strip_suffix('.').unwrap_or(mantissa));
+        let exponent = exponent.parse::<i32>().map_err(|_| Wrong::Text);
+        match (number, exponent) {
+            (Ok(number), Ok(exponent)) if exponent.abs() <= LARGEST => {
+                Ok(number * Self::from_integer(10.into()).pow(exponent))
+            }
+            (Ok(_), Ok(_)) => Err(Wrong::Value),
+            // No number, or an infinite one.
+            _ => Err(double(text).err().unwrap_or(Wrong::Text)),
+        }
     }
 
     fn text(&self) -> String {

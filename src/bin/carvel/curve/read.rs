@@ -116,6 +116,12 @@ fn fields(line: &str) -> Vec<&str> {
     }
 }
 
+/// True for what nobody means as a number, in no precision: a header's field.
+fn is_word(field: &str) -> bool {
+    let starts_number = |c: char| c.is_ascii_digit() || "+-.".contains(c);
+    !field.starts_with(starts_number) && <f64 as Number>::read(field) == Err(Wrong::Text)
+}
+
 /// A point in each line; an empty line, but none with a comment, ends a polygon. A first line
 /// without any number is a header.
 fn csv<T: Number>(text: &str) -> Result<Polygons<T>, Mistake> {
@@ -128,8 +134,7 @@ fn csv<T: Number>(text: &str) -> Result<Polygons<T>, Mistake> {
         }
         let fields = fields(line);
         if found.width == 0 {
-            let words = |field: &&str| T::read(field) == Err(Wrong::Text);
-            if found.header.is_none() && fields.iter().all(words) {
+            if found.header.is_none() && fields.iter().all(|field| is_word(field)) {
                 found.header = Some(line.trim().to_owned());
                 continue;
             }

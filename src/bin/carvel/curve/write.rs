@@ -2,7 +2,7 @@
 
 use super::number::Number;
 use carvel::curve::{Ends, Grid, Polygon};
-use carvel::{Error, Result};
+use carvel::{Error, ErrorKind, Result};
 use std::io::Write;
 
 /// Bytes that are handed on at once.
@@ -66,6 +66,10 @@ fn vertices<T: Number>(out: &mut Out, points: &[T], width: usize) -> Result<()> 
     for point in points.chunks_exact(width) {
         let mut all = [0.0; 3];
         all.iter_mut().zip(point).for_each(|(out, x)| *out = x.to_f64());
+        if let Some(x) = all.iter().find(|x| !x.is_finite()) {
+            let message = format!("a coordinate of a point is {x} as a number of OBJ");
+            return Err(Error::new(ErrorKind::Overflow, message));
+        }
         // Fractions are none of OBJ's numbers; single precision stays as short as it is.
         let text: Vec<_> = point
             .iter()
