@@ -5,11 +5,12 @@
 //! nothing on a job of a millisecond.
 
 use super::{Error, ErrorKind, Result};
+use rayon::ThreadPool;
 use rayon::prelude::*;
 use std::fmt;
 use std::ops::Range;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
 use std::thread::JoinHandle;
 
 /// Chunks per thread: enough to even out uneven work, few enough to be free.
@@ -46,7 +47,7 @@ impl CancelFlag {
 /// and a plug-in may be unloaded from under one that has not.
 struct Pool {
     /// `None` only while the value is dropped.
-    pool: Option<rayon::ThreadPool>,
+    pool: Option<ThreadPool>,
     threads: Vec<JoinHandle<()>>,
 }
 
@@ -103,13 +104,13 @@ impl Context {
         ContextBuilder { threads: 1, context: Self::serial() }
     }
 
-    fn pool(&self) -> Option<&rayon::ThreadPool> {
+    fn pool(&self) -> Option<&ThreadPool> {
         self.pool.as_ref().and_then(|pool| pool.pool.as_ref())
     }
 
     /// The number of threads that work is spread over.
     pub fn threads(&self) -> usize {
-        self.pool().map_or(1, rayon::ThreadPool::current_num_threads)
+        self.pool().map_or(1, ThreadPool::current_num_threads)
     }
 
     /// The flag that stops work in this context.
@@ -194,13 +195,25 @@ impl Context {
         items: Vec<I>,
         work: impl Fn(I) -> R + Sync + Send,
     ) -> Result<Vec<R>> {
-        let guarded = |item| self.check_cancelled().map(|()| work(item));
-        match self.pool() {
-            Some(pool) if items.len() > 1 => {
-                pool.install(|| items.into_par_iter().map(guarded).collect())
-            }
-            _ => items.into_iter().map(guarded).collect(),
-        }
+        let Some(pool) = self.pool().filter(|_| items.len() > 1) else {
+            return items.into_iter().map(|i| self.check_cancelled().map(|()| work(i))).collect();
+        };
+        let slots: Vec<_> = items.into_iter().map(|i| Mutex::new((Some(i), None))).collect();
+        self.spread(pool, slots.len(), &|place| {
+            // Nobody else is at this slot, so that no lock waits or is poisoned.
+            let slot = || slots[place].lock().unwrap_or_else(PoisonError::into_inner);
+            let item = slot().0.take();
+            let result = item.map(&work);
+            slot().1 = result;
+        })?;
+        Ok(slots.into_iter().filter_map(|slot| slot.into_inner().ok()?.1).collect())
+    }
+
+    /// Runs `work` on every number below `n` on the threads of a pool. Not generic: all that a
+    /// parallel iterator is made of is compiled here, and not once for each use.
+    fn spread(&self, pool: &ThreadPool, n: usize, work: &(dyn Fn(usize) + Sync)) -> Result<()> {
+        let guarded = |i| self.check_cancelled().map(|()| work(i));
+        pool.install(|| (0..n).into_par_iter().try_for_each(guarded))
     }
 
     /// Fills a slice of records of `width` values; `work` gets the index of the
