@@ -437,7 +437,7 @@ fn assert_lanes<T: Scalar>(made: &[T], expected: &[T], tolerance: f64) {
 }
 
 proptest! {
-    #![proptest_config(config(96))]
+    #![proptest_config(config(40))]
 
     #[test]
     fn attributes_follow_the_rows_of_positions(
