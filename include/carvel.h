@@ -1643,8 +1643,9 @@ CARVEL_API carvel_status carvel_stencils_load(const char *path, carvel_stencils 
  * carvel_mask: a scheme of polygons
  *
  * The mask of a stationary scheme of arity m: new point i is the sum of a(i - m j) times
- * old point j. It is exact; points are float or double, of any width. Immutable and
- * shared freely.
+ * old point j. It is exact; points are float or double, of any width. A scheme whose rules
+ * change from level to level, or from edge to edge, has no mask, but refines polygons.
+ * Immutable and shared freely.
  * ========================================================================== */
 
 typedef struct carvel_mask carvel_mask;
@@ -1728,9 +1729,9 @@ CARVEL_API carvel_status carvel_mask_analysis_init(carvel_mask_analysis *analysi
                                                    uint32_t struct_size);
 
 /* Makes a mask.
- * text: UTF-8: a name of the catalogue with its parameters, such as "three-point:1/32"
- * (docs/curves.md lists all), or coefficients such as "1/4,3/4,3/4,1/4" or "[1,3,3,1]/4",
- * whose middle is then at 0 or -1/2.
+ * text: UTF-8: a name of the catalogue with its parameters, such as "three-point:1/32" or
+ * "tension-four-point:0.5" (docs/curves.md lists all), or coefficients such as
+ * "1/4,3/4,3/4,1/4" or "[1,3,3,1]/4", whose middle is then at 0 or -1/2.
  * arity: that of coefficients, 2 to 64; 0 for 2, and for a name.
  * Errors: NULL_POINTER, MISALIGNED; INVALID_NUMBER for an unknown name and for what is no
  * number; PARAMETER_OUT_OF_RANGE for an arity, a parameter, or coefficients that do not
@@ -1743,22 +1744,23 @@ CARVEL_API void carvel_mask_destroy(carvel_mask *mask);
 
 /* The coefficients, that of the lowest index first, in lowest terms. With capacity 0
  * `out` may be NULL and only `count`, which may be NULL, is written.
- * Errors: NULL_POINTER, MISALIGNED, OVERLAP, BUFFER_TOO_SMALL; TOO_LARGE for one that does
- * not fit 64 bits. */
+ * Errors: NULL_POINTER, MISALIGNED, OVERLAP, BUFFER_TOO_SMALL; UNSUPPORTED where there is
+ * no mask; TOO_LARGE for one that does not fit 64 bits. */
 CARVEL_API carvel_status carvel_mask_coefficients(const carvel_mask *mask,
                                                   carvel_fraction *out, uint64_t capacity,
                                                   uint64_t *count, carvel_error *error);
 
 /* Makes the scheme on meshes whose regular rule is the mask's tensor square: a dual or
  * primal split and smoothing passes, with the defaults of carvel_scheme_desc otherwise.
- * Errors: NULL_POINTER, MISALIGNED; UNSUPPORTED, with the reason, for a mask that is no
- * split with passes; PARAMETER_OUT_OF_RANGE for passes beyond those of carvel_scheme_desc. */
+ * Errors: NULL_POINTER, MISALIGNED; UNSUPPORTED, with the reason, for what is no split with
+ * passes; PARAMETER_OUT_OF_RANGE for passes beyond those of carvel_scheme_desc. */
 CARVEL_API carvel_status carvel_mask_scheme(const carvel_mask *mask, carvel_scheme **out,
                                             carvel_error *error);
 
 /* Analyses a mask; analysis->struct_size must be set. Milliseconds for usual masks,
  * seconds for long ones.
- * Errors: NULL_POINTER, MISALIGNED, STRUCT_SIZE, CANCELLED. */
+ * Errors: NULL_POINTER, MISALIGNED, STRUCT_SIZE, CANCELLED; UNSUPPORTED where there is no
+ * mask. */
 CARVEL_API carvel_status carvel_mask_analyse(const carvel_mask *mask,
                                              const carvel_context *context,
                                              carvel_mask_analysis *analysis,
@@ -1779,8 +1781,9 @@ CARVEL_API carvel_status carvel_mask_counts(const carvel_mask *mask, int32_t end
  * width, as many as carvel_mask_counts says. Some nanoseconds for each point, and twice
  * the memory of the result on the way.
  * Errors: as carvel_mask_counts; INVALID_STRIDE, OVERLAP, BUFFER_TOO_SMALL; LENGTH_MISMATCH
- * for different widths; NOT_FINITE, OVERFLOW, naming the point; MEMORY_CEILING,
- * OUT_OF_RESOURCES, CANCELLED. */
+ * for different widths, and for numbers of a scheme that are not one for each edge;
+ * PARAMETER_OUT_OF_RANGE for such a number; NOT_FINITE, OVERFLOW, naming the point;
+ * MEMORY_CEILING, OUT_OF_RESOURCES, CANCELLED. */
 CARVEL_API carvel_status carvel_mask_refine_f32(const carvel_mask *mask,
                                                 const carvel_context *context, int32_t ends,
                                                 uint32_t steps,
@@ -1793,6 +1796,52 @@ CARVEL_API carvel_status carvel_mask_refine_f64(const carvel_mask *mask,
                                                 const carvel_const_values_f64 *points,
                                                 const carvel_values_f64 *out,
                                                 carvel_error *error);
+
+/* The points, and the ends, of carvel_mask_limit_f32; counts->struct_size must be set.
+ * Errors: as carvel_mask_limit_f32, without those of records. */
+CARVEL_API carvel_status carvel_mask_limit_counts(const carvel_mask *mask, int32_t ends,
+                                                  uint64_t points, uint32_t derivative,
+                                                  carvel_polygon_counts *counts,
+                                                  carvel_error *error);
+
+/* Points of the limit curve that belong to the points of a polygon, as many as
+ * carvel_mask_limit_counts says, or derivatives of some order by a parameter that grows by
+ * 1 from point to point. Anchors stay, and have no derivatives.
+ * Errors: as carvel_mask_refine_f32; UNSUPPORTED where there is no mask, no limit or no
+ * such derivative. */
+CARVEL_API carvel_status carvel_mask_limit_f32(const carvel_mask *mask,
+                                               const carvel_context *context, int32_t ends,
+                                               uint32_t derivative,
+                                               const carvel_const_values_f32 *points,
+                                               const carvel_values_f32 *out,
+                                               carvel_error *error);
+CARVEL_API carvel_status carvel_mask_limit_f64(const carvel_mask *mask,
+                                               const carvel_context *context, int32_t ends,
+                                               uint32_t derivative,
+                                               const carvel_const_values_f64 *points,
+                                               const carvel_values_f64 *out,
+                                               carvel_error *error);
+
+/* Refines a grid, `steps` times, by the tensor product of two masks: `down` from row to
+ * row and `along` the rows. Points are row by row, `columns` to a row; the result has the
+ * rows that carvel_mask_counts says for `down` and the columns that it says for `along`.
+ * Errors: as carvel_mask_refine_f32, and LENGTH_MISMATCH for points that are no full rows. */
+CARVEL_API carvel_status carvel_mask_refine_grid_f32(const carvel_mask *down,
+                                                     const carvel_mask *along,
+                                                     const carvel_context *context,
+                                                     int32_t ends_down, int32_t ends_along,
+                                                     uint64_t columns, uint32_t steps,
+                                                     const carvel_const_values_f32 *points,
+                                                     const carvel_values_f32 *out,
+                                                     carvel_error *error);
+CARVEL_API carvel_status carvel_mask_refine_grid_f64(const carvel_mask *down,
+                                                     const carvel_mask *along,
+                                                     const carvel_context *context,
+                                                     int32_t ends_down, int32_t ends_along,
+                                                     uint64_t columns, uint32_t steps,
+                                                     const carvel_const_values_f64 *points,
+                                                     const carvel_values_f64 *out,
+                                                     carvel_error *error);
 
 #ifdef __cplusplus
 }

@@ -749,6 +749,42 @@ inline carvel_status refine(const carvel_mask *mask, const carvel_context *conte
     return carvel_mask_refine_f64(mask, context, static_cast<std::int32_t>(ends), steps, points,
                                   out, error);
 }
+inline carvel_status limit(const carvel_mask *mask, const carvel_context *context,
+                           carvel_ends ends, std::uint32_t derivative,
+                           const carvel_const_values_f32 *points, const carvel_values_f32 *out,
+                           carvel_error *error)
+{
+    return carvel_mask_limit_f32(mask, context, static_cast<std::int32_t>(ends), derivative,
+                                 points, out, error);
+}
+inline carvel_status refine_grid(const carvel_mask *down, const carvel_mask *along,
+                                 const carvel_context *context, carvel_ends ends_down,
+                                 carvel_ends ends_along, std::uint64_t columns,
+                                 std::uint32_t steps, const carvel_const_values_f32 *points,
+                                 const carvel_values_f32 *out, carvel_error *error)
+{
+    return carvel_mask_refine_grid_f32(down, along, context, static_cast<std::int32_t>(ends_down),
+                                       static_cast<std::int32_t>(ends_along), columns, steps,
+                                       points, out, error);
+}
+inline carvel_status limit(const carvel_mask *mask, const carvel_context *context,
+                           carvel_ends ends, std::uint32_t derivative,
+                           const carvel_const_values_f64 *points, const carvel_values_f64 *out,
+                           carvel_error *error)
+{
+    return carvel_mask_limit_f64(mask, context, static_cast<std::int32_t>(ends), derivative,
+                                 points, out, error);
+}
+inline carvel_status refine_grid(const carvel_mask *down, const carvel_mask *along,
+                                 const carvel_context *context, carvel_ends ends_down,
+                                 carvel_ends ends_along, std::uint64_t columns,
+                                 std::uint32_t steps, const carvel_const_values_f64 *points,
+                                 const carvel_values_f64 *out, carvel_error *error)
+{
+    return carvel_mask_refine_grid_f64(down, along, context, static_cast<std::int32_t>(ends_down),
+                                       static_cast<std::int32_t>(ends_along), columns, steps,
+                                       points, out, error);
+}
 inline carvel_status interpolate(const carvel_hierarchy *hierarchy,
                                  const carvel_context *context, std::uint32_t level,
                                  carvel_interpolation interpolation,
@@ -2116,6 +2152,17 @@ public:
         return call.result(counts);
     }
 
+    /* Points and ends of the limit, or of a derivative. */
+    Result<PolygonCounts> try_limit_counts(carvel_ends ends, std::uint64_t points,
+                                           std::uint32_t derivative = 0) const
+    {
+        detail::Call call;
+        PolygonCounts counts = detail::sized<PolygonCounts>();
+        call.status = carvel_mask_limit_counts(get(), static_cast<std::int32_t>(ends), points,
+                                               derivative, &counts, call.error());
+        return call.result(counts);
+    }
+
     /* A refined polygon, into your buffer or as a vector. Takes what values() takes, or
      * what values(), rows() and columns() give. */
     template <class V, class O>
@@ -2134,7 +2181,48 @@ public:
                     const Context *context = nullptr) const
     {
         const ConstValues from = values(points);
-        return refined(ends, steps, from, context);
+        const auto work = [&](const auto *to, carvel_error *error) {
+            return detail::refine(get(), detail::raw(context), ends, steps, &from, to, error);
+        };
+        return made(try_counts(ends, from.count, steps), from, work);
+    }
+
+    /* Points of the limit that belong to those of a polygon, or derivatives. */
+    template <class V, class O>
+    Result<void> try_limit_into(carvel_ends ends, std::uint32_t derivative, const V &points,
+                                O &&out, const Context *context = nullptr) const
+    {
+        const ConstValues from = values(points);
+        const Values to = values(out);
+        detail::Call call;
+        call.status = detail::limit(get(), detail::raw(context), ends, derivative, &from, &to,
+                                    call.error());
+        return call.result();
+    }
+    template <class V>
+    auto try_limit(carvel_ends ends, std::uint32_t derivative, const V &points,
+                   const Context *context = nullptr) const
+    {
+        const ConstValues from = values(points);
+        const auto work = [&](const auto *to, carvel_error *error) {
+            return detail::limit(get(), detail::raw(context), ends, derivative, &from, to, error);
+        };
+        return made(try_limit_counts(ends, from.count, derivative), from, work);
+    }
+
+    /* A grid, row by row, refined by this mask from row to row and `along` the rows. */
+    template <class V, class O>
+    Result<void> try_refine_grid_into(const Mask &along, carvel_ends ends_down,
+                                      carvel_ends ends_along, std::uint64_t columns,
+                                      std::uint32_t steps, const V &points, O &&out,
+                                      const Context *context = nullptr) const
+    {
+        const ConstValues from = values(points);
+        const Values to = values(out);
+        detail::Call call;
+        call.status = detail::refine_grid(get(), along.get(), detail::raw(context), ends_down,
+                                          ends_along, columns, steps, &from, &to, call.error());
+        return call.result();
     }
 
 #if CARVEL_HPP_THROWS
@@ -2164,27 +2252,49 @@ public:
     {
         return try_refine(ends, steps, points, context).value();
     }
+    PolygonCounts limit_counts(carvel_ends ends, std::uint64_t points,
+                               std::uint32_t derivative = 0) const
+    {
+        return try_limit_counts(ends, points, derivative).value();
+    }
+    template <class V, class O>
+    void limit_into(carvel_ends ends, std::uint32_t derivative, const V &points, O &&out,
+                    const Context *context = nullptr) const
+    {
+        try_limit_into(ends, derivative, points, out, context).value();
+    }
+    template <class V>
+    auto limit(carvel_ends ends, std::uint32_t derivative, const V &points,
+               const Context *context = nullptr) const
+    {
+        return try_limit(ends, derivative, points, context).value();
+    }
+    template <class V, class O>
+    void refine_grid_into(const Mask &along, carvel_ends ends_down, carvel_ends ends_along,
+                          std::uint64_t columns, std::uint32_t steps, const V &points, O &&out,
+                          const Context *context = nullptr) const
+    {
+        try_refine_grid_into(along, ends_down, ends_along, columns, steps, points, out, context)
+            .value();
+    }
 #endif
 
 private:
-    template <class T>
-    Result<std::vector<T>> refined(carvel_ends ends, std::uint32_t steps,
-                                   const ConstValues<T> &from, const Context *context) const
+    /* A vector for as many points, after asking what the library would refuse. */
+    template <class T, class Work>
+    static Result<std::vector<T>> made(const Result<PolygonCounts> &counts,
+                                       const ConstValues<T> &from, const Work &work)
     {
-        const Result<PolygonCounts> counts = try_counts(ends, from.count, steps);
         if (!counts)
             return counts.error();
         detail::Call call;
         std::vector<T> out;
-        /* What the library would refuse is refused before a vector is made. */
         const Values<T> nowhere(nullptr, 0, from.width);
-        call.status = detail::refine(get(), detail::raw(context), ends, steps, &from, &nowhere,
-                                     call.error());
+        call.status = work(&nowhere, call.error());
         if (call.status == CARVEL_STATUS_BUFFER_TOO_SMALL &&
             call.grow(out, counts->points, from.width)) {
             const Values<T> to(out.data(), counts->points, from.width);
-            call.status = detail::refine(get(), detail::raw(context), ends, steps, &from, &to,
-                                         call.error());
+            call.status = work(&to, call.error());
         }
         return call.result(std::move(out));
     }

@@ -1,22 +1,22 @@
-//! `carvel_mask`: a scheme of polygons, what it makes of them and what is proved of it.
+//! `carvel_mask`: a scheme of polygons, what it makes of them and of grids, and what is proved
+//! of it.
 
-use super::buffer::{check_overlap, check_pointer, list};
+use super::buffer::{check_pointer, list};
 use super::guard::call;
 use super::object::{destroy_function, object};
 use super::status::{CARVEL_STATUS_TOO_LARGE, Fault, Result, carvel_status};
-use super::values::{ConstValues, Values};
 use super::versioned::{check, init_function, initial, versioned, write};
 use super::{carvel_context, carvel_error, carvel_fraction, carvel_scheme};
 use crate::analysis::mask::{Analysis, Effort};
-use crate::base::{Context, Error, ErrorKind, Scalar, memory};
+use crate::base::{Context, Error, ErrorKind};
 use crate::curve::rational::to_fraction;
 use crate::curve::{
-    Coordinate, CurveSplit, Ends, Factors, Mask, Parametrisation, Polygon, Rational, catalogue,
+    CurveScheme, CurveSplit, Ends, Factors, Mask, Parametrisation, Polygon, Rational,
 };
 use crate::scheme::Scheme;
 use std::ffi::{CStr, c_char};
 
-object!(carvel_mask, Mask);
+object!(carvel_mask, CurveScheme);
 
 pub const CARVEL_ENDS_CLOSED: i32 = 0;
 pub const CARVEL_ENDS_DROPPED: i32 = 1;
@@ -58,7 +58,7 @@ versioned! {
     }
 }
 
-fn ends(ends: i32) -> Result<Ends> {
+pub(super) fn ends(ends: i32) -> Result<Ends> {
     match ends {
         CARVEL_ENDS_CLOSED => Ok(Ends::Closed),
         CARVEL_ENDS_DROPPED => Ok(Ends::Dropped),
@@ -87,11 +87,11 @@ fn order(value: Option<usize>) -> i32 {
     value.and_then(|k| i32::try_from(k).ok()).unwrap_or(-1)
 }
 
-/// The mask of a text: a name of the catalogue begins with a letter, coefficients do not.
+/// The scheme of a text: a name of the catalogue begins with a letter, coefficients do not.
 ///
 /// # Safety
 /// NULL, or a string that ends with a zero byte.
-unsafe fn mask(text: *const c_char, arity: u32) -> Result<Mask> {
+unsafe fn scheme(text: *const c_char, arity: u32) -> Result<CurveScheme> {
     check_pointer(text, "text")?;
     // SAFETY: the caller's contract.
     let text = unsafe { CStr::from_ptr(text) }.to_str();
@@ -99,10 +99,10 @@ unsafe fn mask(text: *const c_char, arity: u32) -> Result<Mask> {
         text.map_err(|_| Error::new(ErrorKind::InvalidText, "the text is no UTF-8".to_owned()))?;
     let named = text.trim_start().starts_with(|c: char| c.is_ascii_alphabetic());
     match (named, arity) {
-        (true, 0) => Ok(catalogue::mask(text)?),
+        (true, 0) => Ok(CurveScheme::named(text)?),
         (true, _) => Err(Fault::out_of_range("arity is set, but a name has its own")),
-        (false, 0) => Ok(Mask::parse(text, 2, None)?),
-        (false, arity) => Ok(Mask::parse(text, arity as usize, None)?),
+        (false, 0) => Ok(CurveScheme::Stationary(Mask::parse(text, 2, None)?)),
+        (false, arity) => Ok(CurveScheme::Stationary(Mask::parse(text, arity as usize, None)?)),
     }
 }
 
@@ -146,7 +146,7 @@ pub unsafe extern "C" fn carvel_mask_create(
     error: *mut carvel_error,
 ) -> carvel_status {
     // SAFETY: the header's contract.
-    unsafe { call(error, |call| call.create(out, |_| mask(text, arity))) }
+    unsafe { call(error, |call| call.create(out, |_| scheme(text, arity))) }
 }
 
 destroy_function!(carvel_mask_destroy, carvel_mask);
@@ -162,7 +162,7 @@ pub unsafe extern "C" fn carvel_mask_coefficients(
     // SAFETY: the header's contract.
     unsafe {
         call(error, |call| {
-            let exact = call.object(mask)?.coefficients().iter().map(to_fraction);
+            let exact = call.object(mask)?.stationary()?.coefficients().iter().map(to_fraction);
             let exact: Option<Vec<carvel_fraction>> = exact.map(|c| c.map(Into::into)).collect();
             let too_long =
                 || Fault::new(CARVEL_STATUS_TOO_LARGE, "a coefficient does not fit 64 bits");
@@ -181,7 +181,7 @@ pub unsafe extern "C" fn carvel_mask_scheme(
     unsafe {
         call(error, |call| {
             call.create(out, |call| {
-                let Factors { split, passes } = Factors::of(call.object(mask)?)?;
+                let Factors { split, passes } = Factors::of(call.object(mask)?.stationary()?)?;
                 Ok(match split {
                     CurveSplit::Dual => Scheme::dual(&passes)?,
                     CurveSplit::Primal => Scheme::primal(&passes)?,
@@ -203,6 +203,7 @@ pub unsafe extern "C" fn carvel_mask_analyse(
         call(error, |call| {
             let (mask, context) = (call.object(mask)?, call.context(context)?);
             check(analysis)?;
+            let mask = mask.stationary()?;
             let found = Analysis::of(&context, mask, Effort::default())?;
             write(analysis, &carvel_mask_analysis::of(mask, &found))
         })
@@ -224,78 +225,38 @@ pub unsafe extern "C" fn carvel_mask_counts(
             let mask = call.object(mask)?;
             check(counts)?;
             let points = usize::try_from(points).unwrap_or(usize::MAX);
-            let (points, after) = Polygon::<f64>::predict(mask, points, ends(ends_before)?, steps)?;
+            let (points, after) = mask.predict(points, ends(ends_before)?, steps)?;
             let (ends, points) = (ends_number(after), points as u64);
             write(counts, &carvel_polygon_counts { ends, points, ..initial() })
         })
     }
 }
 
-/// Refines a polygon of the caller's.
-fn refine<T: Scalar + Coordinate>(
-    context: &Context,
-    mask: &Mask,
-    (points, width, ends): (&[T], usize, Ends),
-    steps: u32,
-) -> Result<Vec<T>> {
-    let polygon = Polygon::new(memory::copied(points)?, width, ends);
-    Ok(polygon.refine(context, mask, steps)?.points)
-}
-
-/// # Safety
-/// The header's contract.
-unsafe fn run<T: Scalar + Coordinate>(
-    (mask, context): (*const carvel_mask, *const carvel_context),
-    (ends_before, steps): (i32, u32),
-    (points, out): (*const ConstValues<T>, *const Values<T>),
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn carvel_mask_limit_counts(
+    mask: *const carvel_mask,
+    ends_before: i32,
+    points: u64,
+    derivative: u32,
+    counts: *mut carvel_polygon_counts,
     error: *mut carvel_error,
 ) -> carvel_status {
-    // SAFETY: the caller's contract.
+    // SAFETY: the header's contract.
     unsafe {
         call(error, |call| {
-            let (mask, context) = (call.object(mask)?, call.context(context)?);
+            let mask = call.object(mask)?.stationary()?;
+            check(counts)?;
+            let points = usize::try_from(points).unwrap_or(usize::MAX);
             let ends = ends(ends_before)?;
-            check_pointer(points, "points")?;
-            check_pointer(out, "out")?;
-            let points = points.read();
-            let count = usize::try_from(points.count).unwrap_or(usize::MAX);
-            let (needed, _) = Polygon::<T>::predict(mask, count, ends, steps)?;
-            let from = points.check(points.count, "points".into())?;
-            let to = out.read().check(needed as u64, from.width, "out".into())?;
-            check_overlap(&[from.read_span().hull(), to.write_span().hull()])?;
-            let refined = refine(&context, mask, (from.read()?.values(), from.width, ends), steps)?;
-            let mut sink = to.sink()?;
-            sink.values().copy_from_slice(&refined);
-            sink.finish();
-            Ok(())
+            let (points, after) = Polygon::<f64>::predict_limit(
+                &Context::serial(),
+                mask,
+                points,
+                ends,
+                derivative as usize,
+            )?;
+            let (ends, points) = (ends_number(after), points as u64);
+            write(counts, &carvel_polygon_counts { ends, points, ..initial() })
         })
     }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn carvel_mask_refine_f32(
-    mask: *const carvel_mask,
-    context: *const carvel_context,
-    ends: i32,
-    steps: u32,
-    points: *const ConstValues<f32>,
-    out: *const Values<f32>,
-    error: *mut carvel_error,
-) -> carvel_status {
-    // SAFETY: the header's contract.
-    unsafe { run((mask, context), (ends, steps), (points, out), error) }
-}
-
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn carvel_mask_refine_f64(
-    mask: *const carvel_mask,
-    context: *const carvel_context,
-    ends: i32,
-    steps: u32,
-    points: *const ConstValues<f64>,
-    out: *const Values<f64>,
-    error: *mut carvel_error,
-) -> carvel_status {
-    // SAFETY: the header's contract.
-    unsafe { run((mask, context), (ends, steps), (points, out), error) }
 }

@@ -1,7 +1,7 @@
 //! The C interface: `include/carvel.h`, object by object.
 //!
-//! A file for each object of the header, in its order, and one for each description
-//! that is long (`mesh_desc`, `refine_desc`); each function checks what it is given,
+//! A file for each object of the header, in its order, one for each description that is
+//! long (`mesh_desc`, `refine_desc`), and `polygon` for what masks make of points; each function checks what it is given,
 //! borrows, calls the kernel once and writes out. The rest is what they share:
 //!
 //! | file | its idea |
@@ -29,6 +29,7 @@ mod mask;
 mod mesh;
 mod mesh_desc;
 mod object;
+mod polygon;
 mod predict;
 mod refine_desc;
 mod refiner;
@@ -45,6 +46,7 @@ pub use hierarchy::*;
 pub use mask::*;
 pub use mesh::*;
 pub use mesh_desc::*;
+pub use polygon::*;
 pub use predict::*;
 pub use refine_desc::*;
 pub use refiner::*;

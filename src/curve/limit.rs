@@ -213,24 +213,56 @@ impl<T: Coordinate> Polygon<T> {
     /// # Errors
     /// As [`limit_stencil`] and [`Polygon::refine`].
     pub fn limit(&self, context: &Context, mask: &Mask, derivative: usize) -> Result<Self> {
-        let place = mask.tau() / ratio(mask.arity() as i64 - 1, 1);
-        let stencil = limit_stencil(context, mask, &place, derivative)?;
-        let taps = stencil.weights.iter().map(T::from_rational).zip(stencil.first..);
-        let rules = Rules::single(taps, mask.is_symmetric());
+        let rules = limit_rules(context, mask, derivative)?;
         check_points(&self.points, self.width)?;
         let extent = Extent::of(&rules, self.ends, self.len())?;
-        let anchored = extent.ends == Ends::Anchored;
-        let anchors = if anchored && derivative == 0 { self.width } else { 0 };
-        let size = extent.made * self.width + 2 * anchors;
-        check_total(context, size, 1, T::BYTES)?;
+        let (count, ends) = with_anchors(&extent, derivative);
+        let anchors = (count - extent.made) / 2 * self.width;
+        check_total(context, count, self.width, T::BYTES)?;
+        let size = count * self.width;
         let mut points = T::zeros(size)?;
         apply(context, &rules, &self.source(), &extent, &mut points[anchors..size - anchors])?;
-        if derivative == 0 && (anchored || extent.ends == Ends::Kept) {
+        if derivative == 0 && matches!(ends, Ends::Anchored | Ends::Kept) {
             points[..self.width].clone_from_slice(self.point(0));
             points[size - self.width..].clone_from_slice(self.point(self.len() - 1));
         }
-        let ends = if anchored && derivative > 0 { Ends::Dropped } else { extent.ends };
         check_overflow(&self.points, rules.norm(), &points, self.width)?;
         Ok(Self { points, width: self.width, ends })
+    }
+
+    /// The number of points, and the ends, of [`Polygon::limit`] for so many points.
+    ///
+    /// # Errors
+    /// As [`Polygon::limit`], without those of coordinates and memory.
+    pub fn predict_limit(
+        context: &Context,
+        mask: &Mask,
+        points: usize,
+        ends: Ends,
+        derivative: usize,
+    ) -> Result<(usize, Ends)> {
+        let rules = limit_rules::<f64>(context, mask, derivative)?;
+        Ok(with_anchors(&Extent::of(&rules, ends, points)?, derivative))
+    }
+}
+
+/// The rule of points of the limit, or of its derivatives.
+fn limit_rules<T: Coordinate>(
+    context: &Context,
+    mask: &Mask,
+    derivative: usize,
+) -> Result<Rules<T>> {
+    let place = mask.tau() / ratio(mask.arity() as i64 - 1, 1);
+    let stencil = limit_stencil(context, mask, &place, derivative)?;
+    let taps = stencil.weights.iter().map(T::from_rational).zip(stencil.first..);
+    Ok(Rules::single(taps, mask.is_symmetric()))
+}
+
+/// The points and ends of a limit: anchors stay where they are, and have no derivatives.
+fn with_anchors(extent: &Extent, derivative: usize) -> (usize, Ends) {
+    match extent.ends {
+        Ends::Anchored if derivative == 0 => (extent.made + 2, Ends::Anchored),
+        Ends::Anchored => (extent.made, Ends::Dropped),
+        ends => (extent.made, ends),
     }
 }

@@ -29,6 +29,7 @@ pub mod rational;
 mod refine;
 mod roots;
 mod rules;
+mod scheme;
 mod step;
 mod tension;
 
@@ -41,4 +42,5 @@ pub use limit::{LimitStencil, limit_stencil, sample_derivative, sample_limit};
 pub use mask::{LARGEST_ARITY, MOST_COEFFICIENTS, Mask, Parametrisation, Tap};
 pub use rational::Rational;
 pub use refine::Polygon;
+pub use scheme::CurveScheme;
 pub use tension::Tension;

@@ -57,7 +57,7 @@ impl Tension {
         }
     }
 
-    fn rules<T: Coordinate>(self) -> Rules<T> {
+    pub(super) fn rules<T: Coordinate>(self) -> Rules<T> {
         match self {
             Self::FourPoint(v) => Rules::four_point(binary_weights(v)),
             Self::TernaryFourPoint(b) => {

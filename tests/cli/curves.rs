@@ -188,7 +188,11 @@ fn what_is_wrong_is_named() {
         ("square.csv -o out.csv --scheme tension-four-point:-1", 2, "tension -1 is out of range"),
         ("square.csv -o out.csv --scheme tension-four-point:x", 2, "'x' is not a number"),
         ("square.csv -o out.csv --scheme non-uniform-four-point:2", 2, "exponent 2"),
-        ("square.csv -o out.csv --scheme non-uniform-four-point:0,1", 2, "takes one number"),
+        (
+            "square.csv -o out.csv --scheme non-uniform-four-point:0,1",
+            2,
+            "2 parameters: non-uniform-four-point has 1",
+        ),
         ("square.csv -o out.csv --scheme chakin", 2, "'chaikin' is near it"),
         ("square.csv -o out.csv --scheme b-spline:0", 2, "degree = 0"),
         ("square.csv -o out.csv --mask 1,1,1", 2, "sum rule"),

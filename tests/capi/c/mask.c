@@ -101,6 +101,128 @@ static void check_ends(void)
     carvel_mask_destroy(chaikin);
 }
 
+/* ---------------------------------------------------------- grids and limits */
+
+/* The limit of the cubic B-spline is (1 4 1)/6, its derivative (-1 0 1)/2. */
+static void check_limits(void)
+{
+    static const double square[] = {0, 0, 6, 0, 6, 6, 0, 6};
+    static const double points[] = {1, 1, 5, 1, 5, 5, 1, 5};
+    static const double tangents[] = {3, -3, 3, 3, -3, 3, -3, -3};
+    carvel_mask *cubic = mask_of("b-spline:3", 0), *linear = mask_of("[1,2,1]/2", 0);
+    const carvel_const_values_f64 from = from64(square, 4, 2);
+    carvel_polygon_counts counts;
+    double out[8];
+    carvel_values_f64 to = to64(out, 4, 2);
+    int i;
+    check_context("limits");
+    CHECK_OK(carvel_polygon_counts_init(&counts, sizeof counts));
+    CHECK_OK(carvel_mask_limit_counts(cubic, CARVEL_ENDS_CLOSED, 4, 0, &counts, failure));
+    CHECK(counts.points == 4 && counts.ends == CARVEL_ENDS_CLOSED);
+    CHECK_OK(carvel_mask_limit_counts(cubic, CARVEL_ENDS_DROPPED, 4, 1, &counts, failure));
+    CHECK(counts.points == 2 && counts.ends == CARVEL_ENDS_DROPPED);
+    CHECK_OK(carvel_mask_limit_f64(cubic, NULL, CARVEL_ENDS_CLOSED, 0, &from, &to, failure));
+    for (i = 0; i < 8; i++)
+        CHECK(fabs(out[i] - points[i]) < 1e-14);
+    CHECK_OK(carvel_mask_limit_f64(cubic, NULL, CARVEL_ENDS_CLOSED, 1, &from, &to, failure));
+    CHECK_BYTES(tangents, out, sizeof tangents);
+    CHECK_STATUS(CARVEL_STATUS_UNSUPPORTED,
+                 carvel_mask_limit_f64(linear, NULL, CARVEL_ENDS_CLOSED, 1, &from, &to, failure));
+    CHECK_STATUS(CARVEL_STATUS_UNSUPPORTED,
+                 carvel_mask_limit_counts(linear, CARVEL_ENDS_CLOSED, 4, 1, &counts, failure));
+    to.count = 3;
+    CHECK_STATUS(CARVEL_STATUS_BUFFER_TOO_SMALL,
+                 carvel_mask_limit_f64(cubic, NULL, CARVEL_ENDS_CLOSED, 0, &from, &to, failure));
+    CHECK_STATUS(CARVEL_STATUS_PARAMETER_OUT_OF_RANGE,
+                 carvel_mask_limit_f64(cubic, NULL, 9, 0, &from, &to, failure));
+    CHECK_STATUS(CARVEL_STATUS_NULL_POINTER,
+                 carvel_mask_limit_counts(cubic, CARVEL_ENDS_CLOSED, 4, 0, NULL, failure));
+    carvel_mask_destroy(cubic);
+    carvel_mask_destroy(linear);
+}
+
+/* A grid of products becomes the products of what its factors become, here exactly. */
+static void check_grid(void)
+{
+    static const float f[] = {3, -1, 4, 1, 5}, g[] = {2, 7, -1, 8};
+    carvel_mask *down = mask_of("chaikin", 0), *along = mask_of("b-spline:3", 0);
+    float grid[20], a[10], b[16], out[112];
+    carvel_const_values_f32 from = {NULL, 0, 1, 0};
+    carvel_values_f32 to = {NULL, 0, 1, 0};
+    uint64_t rows = counts_after(down, CARVEL_ENDS_CLOSED, 5, 1).points;
+    uint64_t columns = counts_after(along, CARVEL_ENDS_KEPT, 4, 1).points;
+    uint64_t i, j;
+    check_context("grid");
+    CHECK(rows == 10 && columns == 7);
+    for (i = 0; i < 20; i++)
+        grid[i] = f[i / 4] * g[i % 4];
+    from.data = f, from.count = 5, to.data = a, to.count = 10;
+    CHECK_OK(carvel_mask_refine_f32(down, NULL, CARVEL_ENDS_CLOSED, 1, &from, &to, failure));
+    from.data = g, from.count = 4, to.data = b, to.count = 7;
+    CHECK_OK(carvel_mask_refine_f32(along, NULL, CARVEL_ENDS_KEPT, 1, &from, &to, failure));
+    from.data = grid, from.count = 20, to.data = out, to.count = 70;
+#define REFINE_GRID(columns) \
+    carvel_mask_refine_grid_f32(down, along, NULL, CARVEL_ENDS_CLOSED, CARVEL_ENDS_KEPT, \
+                                columns, 1, &from, &to, failure)
+    CHECK_OK(REFINE_GRID(4));
+    for (i = 0; i < rows; i++)
+        for (j = 0; j < columns; j++)
+            CHECK(out[i * columns + j] == a[i] * b[j]);
+    CHECK_STATUS(CARVEL_STATUS_LENGTH_MISMATCH, REFINE_GRID(3));
+    CHECK_STATUS(CARVEL_STATUS_LENGTH_MISMATCH, REFINE_GRID(0));
+    to.count = 69;
+    CHECK_STATUS(CARVEL_STATUS_BUFFER_TOO_SMALL, REFINE_GRID(4));
+    carvel_mask_destroy(down);
+    carvel_mask_destroy(along);
+}
+
+/* Six points of a circle stay on it; a scheme without a mask says so. */
+static void check_tension(void)
+{
+    static const double half = 0.5, tall = 0.86602540378443864676;
+    carvel_mask *circle = mask_of("tension-four-point:1/2", 0);
+    carvel_mask *local = mask_of("tension-four-point:0.5,0.5", 0);
+    carvel_mask *uneven = mask_of("non-uniform-four-point:0.5", 0);
+    double hexagon[12], out[24];
+    carvel_const_values_f64 from = from64(hexagon, 6, 2);
+    carvel_values_f64 to = to64(out, 12, 2);
+    carvel_mask_analysis analysis;
+    carvel_scheme *scheme = NULL;
+    carvel_fraction list[4];
+    int i;
+    check_context("tension");
+    for (i = 0; i < 6; i++) {
+        hexagon[2 * i] = i % 3 == 0 ? (i == 0 ? 1 : -1) : (i == 1 || i == 5 ? half : -half);
+        hexagon[2 * i + 1] = i % 3 == 0 ? 0 : (i < 3 ? tall : -tall);
+    }
+    CHECK_UINT(12, counts_after(circle, CARVEL_ENDS_CLOSED, 6, 1).points);
+    CHECK_OK(carvel_mask_refine_f64(circle, NULL, CARVEL_ENDS_CLOSED, 1, &from, &to, failure));
+    for (i = 0; i < 12; i++)
+        CHECK(fabs(out[2 * i] * out[2 * i] + out[2 * i + 1] * out[2 * i + 1] - 1) < 2e-14);
+    CHECK_OK(carvel_mask_refine_f64(uneven, NULL, CARVEL_ENDS_CLOSED, 1, &from, &to, failure));
+    CHECK_BYTES(hexagon, out, 2 * sizeof *out);
+    CHECK_STATUS(CARVEL_STATUS_LENGTH_MISMATCH,
+                 carvel_mask_refine_f64(local, NULL, CARVEL_ENDS_CLOSED, 1, &from, &to, failure));
+    CHECK_OK(carvel_mask_analysis_init(&analysis, sizeof analysis));
+    CHECK_STATUS(CARVEL_STATUS_UNSUPPORTED,
+                 carvel_mask_analyse(circle, NULL, &analysis, failure));
+    CHECK_STATUS(CARVEL_STATUS_UNSUPPORTED, carvel_mask_scheme(circle, &scheme, failure));
+    CHECK_STATUS(CARVEL_STATUS_UNSUPPORTED,
+                 carvel_mask_coefficients(circle, list, 4, NULL, failure));
+    CHECK_STATUS(CARVEL_STATUS_UNSUPPORTED,
+                 carvel_mask_limit_f64(circle, NULL, CARVEL_ENDS_CLOSED, 0, &from, &to, failure));
+    CHECK_STATUS(CARVEL_STATUS_UNSUPPORTED,
+                 carvel_mask_refine_grid_f64(circle, circle, NULL, 0, 0, 2, 1, &from, &to,
+                                             failure));
+    carvel_mask_destroy(circle);
+    circle = mask_of("tension-four-point:-2", 0);
+    CHECK_STATUS(CARVEL_STATUS_PARAMETER_OUT_OF_RANGE,
+                 carvel_mask_refine_f64(circle, NULL, CARVEL_ENDS_CLOSED, 1, &from, &to, failure));
+    carvel_mask_destroy(circle);
+    carvel_mask_destroy(local);
+    carvel_mask_destroy(uneven);
+}
+
 /* ---------------------------------------------------------------- analysis */
 
 static void check_paper(void)
@@ -267,6 +389,9 @@ int main(void)
     check_begin();
     check_square();
     check_ends();
+    check_limits();
+    check_grid();
+    check_tension();
     check_paper();
     check_texts();
     check_refused();

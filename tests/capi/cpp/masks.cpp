@@ -17,6 +17,20 @@ int main()
     CHECK(chaikin.counts(CARVEL_ENDS_CLOSED, 4, 3).points == 32);
     CHECK(chaikin.coefficients().size() == 4);
 
+    const carvel::Mask cubic = carvel::Mask::create("b-spline:3");
+    const std::vector<double> tangents = {2, -2, 2, 2, -2, 2, -2, -2};
+    CHECK(cubic.limit_counts(CARVEL_ENDS_CLOSED, 4).points == 4);
+    CHECK(cubic.limit(CARVEL_ENDS_CLOSED, 1, square) == tangents);
+    std::vector<std::array<double, 2>> limits(4);
+    cubic.limit_into(CARVEL_ENDS_CLOSED, 1, square, limits);
+    CHECK(limits[3][0] == -2);
+    CHECK(!chaikin.try_limit(CARVEL_ENDS_CLOSED, 2, square));
+    /* A closed grid of one row is two of the polygon's. */
+    std::vector<std::array<double, 2>> grid(16);
+    chaikin.refine_grid_into(chaikin, CARVEL_ENDS_CLOSED, CARVEL_ENDS_CLOSED, 4, 1, square, grid);
+    for (std::size_t i = 0; i < 16; ++i)
+        CHECK(grid[i] == out[i % 8]);
+
     const carvel::Mask paper = carvel::Mask::create("[1,9,22,22,9,1]/32", 2);
     const carvel::MaskAnalysis found = paper.analyse();
     CHECK(found.continuity == 2 && found.proof_norm.numerator == 3);

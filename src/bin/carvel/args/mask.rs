@@ -66,7 +66,7 @@ pub(super) fn is_family(text: &str) -> bool {
 }
 
 /// What stands before the parameters.
-pub fn family_name(text: &str) -> &str {
+pub(super) fn family_name(text: &str) -> &str {
     text.split_once(':').map_or(text, |(name, _)| name).trim()
 }
 

@@ -13,7 +13,7 @@ mod view;
 pub use analyse::AnalyseArgs;
 pub use crease::CreaseArgs;
 pub use curve::{CurveArgs, CurveFormat, CurveNumbers, PolygonFormat};
-pub use mask::{MaskArgs, MaskSource, check_name, family_name};
+pub use mask::{MaskArgs, MaskSource, check_name};
 pub use scheme::{Chosen, SchemeArgs};
 pub use stencils::{MatrixFormat, StencilArgs};
 pub use view::ViewArgs;

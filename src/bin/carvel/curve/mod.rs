@@ -17,11 +17,10 @@ use crate::plot::curve::Refined;
 use crate::session::Session;
 use crate::text::{counted, path_name};
 use crate::{atomic, places, plot, report};
-use carvel::curve::{Ends, Grid, Polygon, Rational};
+use carvel::curve::{CurveScheme, Ends, Grid, Polygon, Rational};
 use carvel::{Error, ErrorKind};
 use number::Number;
 use read::{Control, Polygons};
-use rule::Rule;
 use serde_json::{Value, json};
 use std::time::Instant;
 
@@ -47,13 +46,13 @@ struct Done {
 
 /// Refines the polygons of a file.
 pub fn run(args: &CurveArgs) -> Result<Exit, Failure> {
-    let rule = Rule::of(args.source())?;
+    let scheme = rule::scheme(args.source())?;
     let format = args.format()?;
     args.input_format()?;
-    check(args, &rule, format)?;
+    check(args, &scheme, format)?;
     places::require_parent(&args.output)?;
     let session = Session::new(args.threads, args.memory, args.quiet)?;
-    let run = Run { args, rule: &rule, format, session: &session };
+    let run = Run { args, scheme: &scheme, format, session: &session };
     let result = match args.precision {
         CurveNumbers::F32 => run.one::<f32>(),
         CurveNumbers::F64 => run.one::<f64>(),
@@ -79,7 +78,7 @@ pub fn run(args: &CurveArgs) -> Result<Exit, Failure> {
 }
 
 /// Refuses options that do not go together.
-fn check(args: &CurveArgs, rule: &Rule, format: CurveFormat) -> Result<(), Failure> {
+fn check(args: &CurveArgs, scheme: &CurveScheme, format: CurveFormat) -> Result<(), Failure> {
     let picture = matches!(format, CurveFormat::Svg | CurveFormat::Png);
     if args.grid && picture {
         return Err(Failure::usage("pictures show polygons, not grids; write OBJ and preview it"));
@@ -87,7 +86,7 @@ fn check(args: &CurveArgs, rule: &Rule, format: CurveFormat) -> Result<(), Failu
     if args.grid && args.limit {
         return Err(Failure::usage("--limit is for polygons, not for grids"));
     }
-    if rule.mask().is_some() {
+    if scheme.mask().is_some() {
         return Ok(());
     }
     if args.grid || args.limit {
@@ -104,7 +103,7 @@ fn check(args: &CurveArgs, rule: &Rule, format: CurveFormat) -> Result<(), Failu
 
 struct Run<'a> {
     args: &'a CurveArgs,
-    rule: &'a Rule,
+    scheme: &'a CurveScheme,
     format: CurveFormat,
     session: &'a Session,
 }
@@ -187,17 +186,17 @@ impl Run<'_> {
 
     fn refined<T: Number>(&self, polygon: &Polygon<T>) -> carvel::Result<Polygon<T>> {
         let context = &self.session.context;
-        let refined = self.rule.refine(context, polygon, self.args.steps)?;
+        let refined = self.scheme.refine(context, polygon, self.args.steps)?;
         if !self.args.limit {
             return Ok(refined);
         }
-        self.rule.limit(context, &refined)?.ok_or_else(|| {
+        rule::limit(context, self.scheme, &refined)?.ok_or_else(|| {
             Error::new(ErrorKind::Unsupported, "--limit: the mask is not proved to converge")
         })
     }
 
     fn grid<T: Number>(&self, rows: &[Polygon<T>]) -> Result<(Made<T>, Vec<Counts>), Failure> {
-        let Some(mask) = self.rule.mask() else {
+        let Some(mask) = self.scheme.mask() else {
             return Err(Failure::usage("--grid needs a mask"));
         };
         let (first, others) = rows.split_first().ok_or_else(|| Failure::usage("no rows"))?;
@@ -267,7 +266,7 @@ impl Run<'_> {
         kind: plot::Kind,
     ) -> Result<(), Failure> {
         let shown = control.iter().zip(refined).map(|(control, refined)| {
-            let limit = self.rule.limit(&self.session.context, control);
+            let limit = rule::limit(&self.session.context, self.scheme, control);
             let limit = limit.map_err(|e| self.failed(&e, None))?;
             Ok(Refined {
                 control: in_the_plane(control),
@@ -302,7 +301,7 @@ impl Run<'_> {
 
     fn described(&self, result: &Result<Done, Failure>) -> Value {
         let args = self.args;
-        let scheme = match self.rule.mask() {
+        let scheme = match self.scheme.mask() {
             Some(mask) => json!({
                 "mask": mask.coefficients().iter().map(ToString::to_string).collect::<Vec<_>>(),
                 "arity": mask.arity(),
