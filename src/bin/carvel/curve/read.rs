@@ -5,8 +5,9 @@ use crate::args::PolygonFormat;
 use crate::exit::{Doing, Exit, Failure};
 use crate::session::Session;
 use crate::text::{one_line, path_name};
-use carvel::Error;
-use std::io::Read as _;
+use carvel::{Error, ErrorKind};
+use std::fs::File;
+use std::io::{Read, stdin};
 use std::path::Path;
 
 /// What a file holds.
@@ -40,10 +41,11 @@ pub fn read<T: Number>(
 ) -> Result<Polygons<T>, Failure> {
     let name = path_name(path);
     session.console.phase("reading", &name);
-    let bytes = session.on_path(path, || bytes(path));
-    let bytes =
-        bytes.map_err(|e| Failure::from_error(&Error::io(name.clone(), e), Doing::Reading))?;
-    session.refuse_if_cancelled()?;
+    let failed = |e: &Error| Failure::from_error(e, Doing::Reading);
+    let bytes = session.on_path(path, || bytes(session, path, &name)).map_err(|e| failed(&e))?;
+    // Lists grow by doubling.
+    let values = (fields_at_most(&bytes) * 2 * size_of::<T>()) as u64;
+    session.context.check_memory(bytes.len() as u64 + values).map_err(|e| failed(&e))?;
     let text = String::from_utf8(bytes)
         .map_err(|_| Failure::new(Exit::Input, format!("{name}: not a text in UTF-8")))?;
     let text = text.strip_prefix('\u{feff}').unwrap_or(&text);
@@ -64,12 +66,34 @@ pub fn read<T: Number>(
     Ok(polygons)
 }
 
-fn bytes(path: &Path) -> std::io::Result<Vec<u8>> {
-    if path.as_os_str() != "-" {
-        return std::fs::read(path);
-    }
+/// The bytes of a file, as long as they are below the ceiling and nobody wants to stop.
+fn bytes(session: &Session, path: &Path, name: &str) -> carvel::Result<Vec<u8>> {
+    const BLOCK: u64 = 1 << 20;
+    let failed = |e| Error::io(name, e);
+    let (mut input, total): (Box<dyn Read>, _) = if path.as_os_str() == "-" {
+        (Box::new(stdin().lock()), None)
+    } else {
+        let file = File::open(path).map_err(failed)?;
+        let size = file.metadata().ok().filter(|m| m.is_file()).map(|m| m.len());
+        (Box::new(file), size)
+    };
+    let go_on = session.bytes_hook();
     let mut bytes = Vec::new();
-    std::io::stdin().lock().read_to_end(&mut bytes).map(|_| bytes)
+    loop {
+        session.context.check_memory((bytes.len() as u64).max(total.unwrap_or(0)))?;
+        if !go_on(bytes.len() as u64, total) {
+            return Err(Error::new(ErrorKind::Cancelled, "cancelled"));
+        }
+        if input.by_ref().take(BLOCK).read_to_end(&mut bytes).map_err(failed)? == 0 {
+            return Ok(bytes);
+        }
+    }
+}
+
+/// No less than the fields of a text.
+fn fields_at_most(text: &[u8]) -> usize {
+    let is_mark = |c: &u8| c.is_ascii_whitespace() || matches!(c, b',' | b';');
+    text.iter().filter(|c| is_mark(c)).count() + 1
 }
 
 /// A mistake in a line, counted from 1.
