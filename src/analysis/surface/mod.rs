@@ -24,13 +24,16 @@
 //! | `weights` | limits and tangents: left eigenvectors |
 //! | `characteristic` | the map of right eigenvectors, sampled |
 //! | `smoothness` | the verdict |
+//! | `cups` | curvature, step by step |
 
 mod characteristic;
+mod cups;
 mod smoothness;
 mod spectrum;
 mod weights;
 
 pub use characteristic::CharacteristicMap;
+pub use cups::CupsAndSaddles;
 pub use smoothness::{Curvature, Smoothness, Tangent};
 pub use spectrum::{Eigenvalue, Spectrum};
 pub use weights::{LimitWeights, VertexWeights};

@@ -6,12 +6,14 @@ use crate::session::Session;
 use crate::{mask, plot, report};
 use carvel::Scheme;
 use carvel::analysis::surface::{
-    CharacteristicMap, Eigenvalue, Feature, LimitWeights, LocalMatrix, Smoothness, Spectrum,
-    Tangent, VertexWeights,
+    CharacteristicMap, CupsAndSaddles, Eigenvalue, Feature, LimitWeights, LocalMatrix, Smoothness,
+    Spectrum, Tangent, VertexWeights,
 };
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 
+/// Steps of cups and saddles.
+const STEPS: u32 = 8;
 /// Valences in one plot.
 const MOST_PLOTTED: usize = 12;
 
@@ -39,8 +41,7 @@ pub fn run(args: &AnalyseArgs) -> Result<Exit, Failure> {
         found.push(analysis.map_err(|e| Failure::from_error(&e, Doing::Asking))?);
     }
     if let (Some(path), Some(kind)) = (&args.plot, kind) {
-        let shown = found.iter().map(|a| (a.faces(), &a.spectrum, a.map.as_ref()));
-        let shown: Vec<_> = shown.collect();
+        let shown: Vec<_> = found.iter().map(Analysis::shown).collect();
         plot::save(&session, path, kind, &plot::surface::figure(&shown))?;
     }
     session.console.clear();
@@ -58,6 +59,8 @@ struct Analysis {
     weights: Option<LimitWeights>,
     map: Option<CharacteristicMap>,
     smoothness: Smoothness,
+    /// Around interior features with a tangent plane.
+    curved: Option<CupsAndSaddles>,
 }
 
 impl Analysis {
@@ -70,7 +73,18 @@ impl Analysis {
         };
         let map = CharacteristicMap::new(scheme, &spectrum)?;
         let smoothness = Smoothness::of(&spectrum, map.as_ref());
-        Ok(Self { spectrum, weights, map, smoothness })
+        let is_curved = map.is_some() && matches!(feature, Feature::Interior { .. });
+        let curved = is_curved.then(|| CupsAndSaddles::new(&matrix, STEPS)).transpose()?;
+        Ok(Self { spectrum, weights, map, smoothness, curved })
+    }
+
+    fn shown(&self) -> plot::surface::Shown<'_> {
+        plot::surface::Shown {
+            faces: self.faces(),
+            spectrum: &self.spectrum,
+            map: self.map.as_ref(),
+            curved: self.curved.as_ref(),
+        }
     }
 
     fn faces(&self) -> usize {

@@ -29,6 +29,10 @@ pub struct ViewArgs {
     /// Normals of the surface, or of the polygons.
     #[arg(long, value_enum, default_value_t, value_name = "NORMALS")]
     shading: Shading,
+    /// Reflection lines: so many stripes of light all around, up to 999, which show how smooth
+    /// a surface is.
+    #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
+    stripes: u32,
     /// The axis that points up.
     #[arg(long, value_enum, default_value_t, value_name = "AXIS")]
     up: Up,
@@ -85,6 +89,7 @@ impl ViewArgs {
                 Shading::Smooth => preview::Shading::Smooth,
                 Shading::Flat => preview::Shading::Flat,
             },
+            stripes: self.stripes,
             up: match self.up {
                 Up::Y => preview::Up::Y,
                 Up::Z => preview::Up::Z,

@@ -1,14 +1,46 @@
-//! What a scheme does around a feature: eigenvalues, natural configuration, characteristic map.
+//! What a scheme does around a feature: eigenvalues, natural configuration, characteristic map,
+//! curvature.
 
 use super::figure::{Axes, Axis, CONTROL, Figure, MARKED, Panel, Part, RESULT};
-use carvel::analysis::surface::{CharacteristicMap, Spectrum};
+use carvel::analysis::surface::{CharacteristicMap, CupsAndSaddles, Spectrum};
+
+/// What is drawn of a feature.
+#[derive(Debug, Clone, Copy)]
+pub struct Shown<'a> {
+    /// The faces around it.
+    pub faces: usize,
+    /// Its eigenvalues.
+    pub spectrum: &'a Spectrum,
+    /// The map, if there is one.
+    pub map: Option<&'a CharacteristicMap>,
+    /// Curvatures, around interior features.
+    pub curved: Option<&'a CupsAndSaddles>,
+}
 
 /// One row of panels for each valence.
-pub fn figure(found: &[(usize, &Spectrum, Option<&CharacteristicMap>)]) -> Figure {
-    let row = |&(faces, spectrum, map): &(usize, &Spectrum, Option<&CharacteristicMap>)| {
-        [eigenvalues(faces, spectrum), control(faces, map), sampled(faces, map)]
+pub fn figure(found: &[Shown]) -> Figure {
+    // A row has as many panels as any other.
+    let columns = if found.iter().all(|shown| shown.curved.is_some()) { 4 } else { 3 };
+    let row = |shown: &Shown| {
+        let Shown { faces, spectrum, map, curved } = *shown;
+        let first = [eigenvalues(faces, spectrum), control(faces, map), sampled(faces, map)];
+        let last = curved.map(|curved| curvature(faces, curved));
+        first.into_iter().chain(last).take(columns)
     };
-    Figure { panels: found.iter().flat_map(row).collect(), columns: 3, size: [340, 300] }
+    let panels = found.iter().flat_map(row).collect();
+    Figure { panels, columns, size: [340, 300] }
+}
+
+/// Sizes of curvatures: where they settle the line becomes level.
+fn curvature(faces: usize, curved: &CupsAndSaddles) -> Panel {
+    let line = |name: &str, values: &[f64], color| {
+        let point = |(step, k): (usize, &f64)| [step as f64, k.abs().log10()];
+        let points = values.iter().enumerate().map(point).collect();
+        Part::line(2.0, color, points).named(name)
+    };
+    let parts = vec![line("cup", &curved.cup, RESULT), line("saddle", &curved.saddle, MARKED)];
+    let axes = Axes::Graph { x: Axis::Count("step"), y: Axis::Real("log10 of Gauss curvature") };
+    Panel { title: format!("{faces} faces: curvature"), axes, parts }
 }
 
 /// Sizes of eigenvalues by mode, with λ and λ².

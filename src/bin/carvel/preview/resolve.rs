@@ -34,7 +34,7 @@ impl Resolver {
         let shaded = view.wireframe != Wireframe::Only;
         let on_dark = !shaded && a >= 128 && light.dot(Vec3::new(0.21, 0.72, 0.07)) < 0.18;
         Self {
-            material: Material::new(sky),
+            material: Material::new(sky, view.stripes),
             encoder: Encoder::new(),
             background: (light * opacity).extend(opacity),
             background_bytes: view.background,

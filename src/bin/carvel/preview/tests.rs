@@ -283,6 +283,29 @@ fn smooth_shading_varies_within_a_face_and_flat_does_not() {
     assert!(!inside(Shading::Flat));
 }
 
+/// A quarter of a cylinder turns its normals by a right angle, the rays by two.
+#[test]
+fn stripes_are_reflected_as_often_as_normals_turn() {
+    let mut arch = Soup::default();
+    let at = |i: u32, z: f64| {
+        let angle = std::f64::consts::FRAC_PI_2 * (f64::from(i) / 64.0 - 0.5);
+        [z, angle.sin(), angle.cos()]
+    };
+    for i in 0..64 {
+        arch = arch.face(&[at(i, 0.0), at(i, 1.0), at(i + 1, 1.0), at(i + 1, 0.0)]);
+    }
+    let view = View { shading: Shading::Flat, ..facing(200, 640) };
+    let sum =
+        |image: &Image, y| pixel(image, 100, y)[..3].iter().map(|&x| u32::from(x)).sum::<u32>();
+    let plain = arch.render(&view);
+    for stripes in [0, 12, 24] {
+        let image = arch.render(&View { stripes, ..view.clone() });
+        let dark = |y: u32| 10 * sum(&image, y) < 6 * sum(&plain, y);
+        let changes = (1..640).filter(|&y| dark(y) != dark(y - 1)).count() as u32;
+        assert!(changes.abs_diff(stripes) <= 1, "{stripes} stripes: {changes} changes");
+    }
+}
+
 #[test]
 fn a_flipped_face_in_a_smooth_surface_is_lit_like_its_surroundings() {
     let mut plane = Soup::grid(3);

@@ -5,6 +5,9 @@ use carvel::{Error, ErrorKind, Result};
 /// The largest width or height of a picture, in pixels.
 pub const MAX_SIDE: u32 = 16384;
 
+/// Finer ones would be below the steps in which normals are kept.
+const MOST_STRIPES: u32 = 999;
+
 /// Whether and how the polygons' edges are drawn.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 pub enum Wireframe {
@@ -56,6 +59,8 @@ pub struct View {
     pub wireframe: Wireframe,
     /// Normals.
     pub shading: Shading,
+    /// Stripes of light around the object whose reflections are drawn, up to 999; 0 for none.
+    pub stripes: u32,
     /// Samples per pixel and axis, 1 to 4.
     pub supersample: u32,
     /// The up axis.
@@ -73,6 +78,7 @@ impl Default for View {
             background: [255; 4],
             wireframe: Wireframe::None,
             shading: Shading::Smooth,
+            stripes: 0,
             supersample: 3,
             up: Up::Y,
         }
@@ -94,6 +100,9 @@ impl View {
         }
         if !(1..=4).contains(&self.supersample) {
             return refuse(format!("supersampling of {}: must be 1 to 4", self.supersample));
+        }
+        if self.stripes > MOST_STRIPES {
+            return refuse(format!("{} stripes: must be 0 to {MOST_STRIPES}", self.stripes));
         }
         for (name, angle) in [("azimuth", self.azimuth), ("elevation", self.elevation)] {
             if !angle.is_finite() {
