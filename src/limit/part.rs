@@ -3,10 +3,11 @@
 use crate::base::{Context, Crease, NONE, Result, SharpVertex, memory};
 use crate::mesh::{BuildOptions, Mesh, NonManifold, build};
 
-/// Rings of faces that decide the limits in the middle, cut edges being no boundary: each step
-/// asks for as many rings more as there are passes, and halves their width.
+/// Rings of faces around vertices that leave, after a step, as many as a rule looks at: it makes
+/// two of each, spoils one more than there are passes beside a cut, and rules look at up to twice
+/// as many as there are passes.
 fn rings(passes: u32) -> u32 {
-    passes.max(3)
+    (2 * passes).max(3)
 }
 
 /// A part of a mesh.

@@ -141,25 +141,47 @@ fn primal(
             Found::Later => memory::extend(&mut rest, [v])?,
         }
     }
-    for level in 1..=DEEPEST {
+    // The mesh of the level before, on it the vertices that are left, and its vertices' rows on
+    // the control vertices. Only what is near the former is ever refined.
+    let (mut coarse, mut inner) = (Arc::clone(mesh), memory::copied(&rest)?);
+    let mut rows: Option<StencilTable<f64>> = None;
+    for _ in 1..=DEEPEST {
         if rest.is_empty() {
             break;
         }
-        let part = Part::new(mesh, &rest, scheme.passes().len() as u32)?;
-        let hierarchy = Hierarchy::new(context, part.mesh, scheme.clone(), level)?;
-        let fine = hierarchy.mesh(level);
-        let mut found = Loose::default();
-        let mut still = Vec::new();
-        for (&v, &inner) in rest.iter().zip(&part.wanted) {
-            match centres.vertex(fine, inner, &mut row).map_err(at(v))? {
-                Found::Limit => found.push(v, &row)?,
-                Found::Later => memory::extend(&mut still, [v])?,
+        let part = Part::new(&coarse, &inner, scheme.passes().len() as u32)?;
+        let hierarchy = Hierarchy::new(context, part.mesh, scheme.clone(), 1)?;
+        let before = match rows {
+            Some(rows) => rows.select(context, &part.vertices)?,
+            None => selection(mesh.vertices(), &part.vertices)?,
+        };
+        let step = hierarchy.stencils(context, &StencilTask::level(1))?;
+        let table = before.compose(context, &step)?;
+        coarse = hierarchy.shared_mesh(1)?;
+        let (mut still, mut lowered) = (Vec::new(), Vec::new());
+        inner.clear();
+        for (&v, &i) in rest.iter().zip(&part.wanted) {
+            match centres.vertex(&coarse, i, &mut row).map_err(at(v))? {
+                Found::Limit => {
+                    lower(&row, |u| table.row(u as usize), &mut lowered)?;
+                    made.push(v, &lowered)?;
+                }
+                Found::Later => {
+                    memory::extend(&mut still, [v])?;
+                    memory::extend(&mut inner, [i])?;
+                }
             }
         }
-        lower(context, &hierarchy, level, &found, Some(&part.vertices), made)?;
-        rest = still;
+        (rows, rest) = (Some(table), still);
     }
     Ok(rest)
+}
+
+/// The table of some of so many vertices.
+fn selection(of: usize, vertices: &[u32]) -> Result<StencilTable<f64>> {
+    let offsets = memory::collect(0..=vertices.len() as u64)?;
+    let weights = memory::filled(1.0, vertices.len())?;
+    StencilTable::new(of, &offsets, memory::copied(vertices)?, weights)
 }
 
 /// Faces that a dual step puts in the places of vertices, level after level.
@@ -209,7 +231,7 @@ fn dual(
                 },
             }
         }
-        lower(context, &hierarchy, level, &found, None, made)?;
+        lower_all(context, &hierarchy, level, &found, made)?;
         rest = still;
     }
     Ok(rest)
@@ -288,14 +310,12 @@ fn between_two(hierarchy: &Hierarchy, origins: &[FaceOrigin], faces: &mut [u32])
     Ok(())
 }
 
-/// Rows on the vertices of a level become rows on the control vertices, named by a list if
-/// there is one.
-fn lower(
+/// Rows on the vertices of a level become rows on the control vertices.
+fn lower_all(
     context: &Context,
     hierarchy: &Hierarchy,
     level: u32,
     found: &Loose,
-    names: Option<&[u32]>,
     made: &mut Loose,
 ) -> Result<()> {
     if found.rows.is_empty() {
@@ -308,19 +328,25 @@ fn lower(
     let table: StencilTable<f64> = hierarchy.stencils(context, &task)?;
     let mut row: Vec<Weighted> = Vec::new();
     for (vertex, range) in &found.rows {
-        row.clear();
-        for &(v, weights) in &found.entries[range.clone()] {
-            let place = needed.binary_search(&v).unwrap_or_default();
-            let (indices, factors) = table.row(place);
-            let named = |&i: &u32| names.map_or(i, |names| names[i as usize]);
-            let scaled = indices.iter().zip(factors);
-            memory::extend(
-                &mut row,
-                scaled.map(|(i, factor)| (named(i), weights.map(|w| w * factor))),
-            )?;
-        }
-        merge(&mut row);
+        let of = |v: u32| table.row(needed.binary_search(&v).unwrap_or_default());
+        lower(&found.entries[range.clone()], of, &mut row)?;
         made.push(*vertex, &row)?;
     }
+    Ok(())
+}
+
+/// A row on vertices that have rows themselves.
+fn lower<'t>(
+    row: &[Weighted],
+    of: impl Fn(u32) -> (&'t [u32], &'t [f64]),
+    lowered: &mut Vec<Weighted>,
+) -> Result<()> {
+    lowered.clear();
+    for &(v, weights) in row {
+        let (indices, factors) = of(v);
+        let scaled = indices.iter().zip(factors);
+        memory::extend(lowered, scaled.map(|(&i, factor)| (i, weights.map(|w| w * factor))))?;
+    }
+    merge(lowered);
     Ok(())
 }
