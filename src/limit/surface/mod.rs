@@ -9,12 +9,14 @@
 //! | `vicinity` | what decides the surface of the others, with a name |
 //! | `nodes` | a finite graph of all surfaces |
 //! | `evaluation` | the way down |
+//! | `stencils` | the same for values that come again and again |
 
 mod box_spline;
 mod cell;
 mod evaluation;
 mod grid;
 mod nodes;
+mod stencils;
 mod univariate;
 mod vicinity;
 
