@@ -103,6 +103,7 @@
  *   carvel_refiner    one-shot: faces and values of level n
  *   carvel_hierarchy  all levels, kept: values again and again, lineage
  *   carvel_stencils   rows of weights: the cheapest values of a fixed topology
+ *   carvel_surface    the limit surface at any point, with derivatives
  *   carvel_mask       a scheme of polygons, and what is proved of it
  *   (analysis)        how smooth a scheme's surfaces are around a feature
  *
@@ -165,8 +166,8 @@
  *            its boundary is rounded off anew. The surface is the one that more
  *            levels at once give, numbered otherwise.
  *
- * Threads    A mesh, scheme, hierarchy, context, stencil table or mask may be used by any
- *            number of threads at once. A refiner serves one call at a time and answers
+ * Threads    A mesh, scheme, hierarchy, context, stencil table, surface or mask may be used
+ *            by any number of threads at once. A refiner serves one call at a time and answers
  *            CARVEL_STATUS_BUSY to another. An error belongs to one thread at
  *            a time. There is no global state that a caller could see, no
  *            hidden thread pool.
@@ -1638,6 +1639,110 @@ CARVEL_API carvel_status carvel_stencils_save(const carvel_stencils *stencils,
  * OUT_OF_RESOURCES. */
 CARVEL_API carvel_status carvel_stencils_load(const char *path, carvel_stencils **out,
                                               carvel_error *error);
+
+/* ==========================================================================
+ * carvel_surface: the limit surface
+ *
+ * Positions and derivatives at any point of the surface that refining for ever leads to,
+ * without refining. Around regular cells it is evaluated in closed form; elsewhere a few
+ * of the scheme's own steps lead to such a cell. Those steps are found once for a mesh.
+ * Immutable and shared freely; the control vertices may move as they like.
+ * ========================================================================== */
+
+typedef struct carvel_surface carvel_surface;
+
+/* A point of the surface: a face of the control mesh and coordinates in it.
+ *
+ * On a quad of any scheme but Loop's, u and v are within 0 and 1: corner 0 lies at (0, 0),
+ * corner 1 at (1, 0), corner 2 at (1, 1). Any other face has a sector for each corner, with
+ * that vertex at (0, 0), the middle of the corner's outgoing edge at (1, 0), and the face's
+ * middle at (1, 1). On a triangle of Loop's scheme corner 0 lies at (0, 0), corner 1 at
+ * (1, 0), corner 2 at (0, 1), and u + v is at most 1. The layout is final. */
+typedef struct carvel_sample {
+    /* In the mesh's order. */
+    uint32_t face;
+    /* The corner of the face whose sector it is; 0 where there are none. */
+    uint32_t sector;
+    double u;
+    double v;
+} carvel_sample;
+
+/* What to evaluate beside the position. */
+enum carvel_derivatives {
+    /* One record for a sample: the position. */
+    CARVEL_DERIVATIVES_NONE = 0,
+    /* Three: the position, its derivatives by u and by v. */
+    CARVEL_DERIVATIVES_FIRST = 1,
+    /* Six: those three, then the derivatives by uu, uv and vv. */
+    CARVEL_DERIVATIVES_SECOND = 2
+};
+
+/* Finds the cells of a surface. The mesh and the scheme are not needed afterwards. Time and
+ * memory grow with the corners of the mesh, and with the number of ways in which its
+ * irregular parts look different.
+ * Errors: NULL_POINTER, MISALIGNED; PARAMETER_OUT_OF_RANGE for a scheme that does not take
+ * the mesh; UNSUPPORTED for a mesh that is not manifold or is anchored with a boundary, for
+ * the tuned rule at extraordinary faces, and for a scheme that does not converge on regular
+ * grids; TOO_LARGE, MEMORY_CEILING, OUT_OF_RESOURCES, CANCELLED. */
+CARVEL_API carvel_status carvel_surface_create(const carvel_context *context,
+                                               const carvel_mesh *mesh,
+                                               const carvel_scheme *scheme,
+                                               carvel_surface **out, carvel_error *error);
+
+/* Destroys a surface. NULL is allowed. */
+CARVEL_API void carvel_surface_destroy(carvel_surface *surface);
+
+/* The sectors of a face: 1, or one for each corner. No cost.
+ * Errors: NULL_POINTER, MISALIGNED, PARAMETER_OUT_OF_RANGE for a face. */
+CARVEL_API carvel_status carvel_surface_sectors(const carvel_surface *surface, uint32_t face,
+                                                uint32_t *sectors, carvel_error *error);
+
+/* Evaluates samples from values of the control vertices, a record for each: `out` gets 1, 3
+ * or 6 records of their width for each sample.
+ * derivatives: one of enum carvel_derivatives. At a sharp edge or a knot they are those of
+ * the sample's own face, from the side of larger coordinates.
+ * All is computed in double precision. After an error that names a sample's face the
+ * buffer's content is undefined, and so after CANCELLED and OUT_OF_RESOURCES. Some hundred
+ * nanoseconds for each sample, in proportion to the number of digits of its coordinates
+ * that are looked at near an extraordinary vertex.
+ * Errors: NULL_POINTER, MISALIGNED, INVALID_STRIDE, OVERLAP, BUFFER_TOO_SMALL,
+ * LENGTH_MISMATCH, TOO_LARGE, MEMORY_CEILING, OUT_OF_RESOURCES, CANCELLED;
+ * PARAMETER_OUT_OF_RANGE for a width or derivatives that are none. For the first sample
+ * concerned, naming its face: PARAMETER_OUT_OF_RANGE for a face, sector or coordinates;
+ * NOT_FINITE for a value that it depends on; UNSUPPORTED in a hole, where the surface of a
+ * dual scheme ends before the boundary or is not regular beside it, for derivatives that the
+ * scheme does not have, or exactly at an extraordinary vertex or an irregular boundary. */
+CARVEL_API carvel_status carvel_surface_evaluate_f32(const carvel_surface *surface,
+                                                     const carvel_context *context,
+                                                     const carvel_sample *samples,
+                                                     uint64_t sample_count, int32_t derivatives,
+                                                     const carvel_const_values_f32 *values,
+                                                     const carvel_values_f32 *out,
+                                                     carvel_error *error);
+CARVEL_API carvel_status carvel_surface_evaluate_f64(const carvel_surface *surface,
+                                                     const carvel_context *context,
+                                                     const carvel_sample *samples,
+                                                     uint64_t sample_count, int32_t derivatives,
+                                                     const carvel_const_values_f64 *values,
+                                                     const carvel_values_f64 *out,
+                                                     carvel_error *error);
+
+/* Makes the table that does the same: the rows of a sample are its records, the columns are
+ * the control vertices. For samples that stay where they are while vertices move; the
+ * transpose carries gradients back. Each sample costs as much as evaluating as many values
+ * as its face has control vertices.
+ * precision: one of enum carvel_precision; weights are computed in double precision and
+ * rounded once.
+ * Errors: NULL_POINTER, MISALIGNED; as carvel_surface_evaluate for samples and derivatives;
+ * PARAMETER_OUT_OF_RANGE for a precision; NOT_FINITE for a weight beyond the precision's
+ * range, very near an extraordinary vertex; TOO_LARGE for 4294967295 rows or weights and
+ * more, MEMORY_CEILING, OUT_OF_RESOURCES, CANCELLED. */
+CARVEL_API carvel_status carvel_surface_stencils(const carvel_context *context,
+                                                 const carvel_surface *surface,
+                                                 const carvel_sample *samples,
+                                                 uint64_t sample_count, int32_t derivatives,
+                                                 int32_t precision, carvel_stencils **out,
+                                                 carvel_error *error);
 
 /* ==========================================================================
  * carvel_mask: a scheme of polygons

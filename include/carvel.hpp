@@ -672,6 +672,7 @@ inline void destroy(carvel_channel *object) { carvel_channel_destroy(object); }
 inline void destroy(carvel_refiner *object) { carvel_refiner_destroy(object); }
 inline void destroy(carvel_hierarchy *object) { carvel_hierarchy_destroy(object); }
 inline void destroy(carvel_stencils *object) { carvel_stencils_destroy(object); }
+inline void destroy(carvel_surface *object) { carvel_surface_destroy(object); }
 inline void destroy(carvel_mask *object) { carvel_mask_destroy(object); }
 
 /* The twins by type. */
@@ -732,6 +733,24 @@ inline carvel_status csr(const carvel_stencils *stencils, std::uint64_t *offsets
                          std::uint64_t entries, carvel_error *error)
 {
     return carvel_stencils_csr_f64(stencils, offsets, rows, indices, weights, entries, error);
+}
+inline carvel_status evaluate(const carvel_surface *surface, const carvel_context *context,
+                              const carvel_sample *samples, std::uint64_t count,
+                              carvel_derivatives derivatives,
+                              const carvel_const_values_f32 *values, const carvel_values_f32 *out,
+                              carvel_error *error)
+{
+    return carvel_surface_evaluate_f32(surface, context, samples, count,
+                                       static_cast<std::int32_t>(derivatives), values, out, error);
+}
+inline carvel_status evaluate(const carvel_surface *surface, const carvel_context *context,
+                              const carvel_sample *samples, std::uint64_t count,
+                              carvel_derivatives derivatives,
+                              const carvel_const_values_f64 *values, const carvel_values_f64 *out,
+                              carvel_error *error)
+{
+    return carvel_surface_evaluate_f64(surface, context, samples, count,
+                                       static_cast<std::int32_t>(derivatives), values, out, error);
 }
 inline carvel_status refine(const carvel_mask *mask, const carvel_context *context,
                             carvel_ends ends, std::uint32_t steps,
@@ -2091,6 +2110,88 @@ private:
             detail::apply(verb, get(), detail::raw(context), &from, &to, call.error());
         return call.result();
     }
+};
+
+/* ==========================================================================
+ * Surface: the limit surface at any point
+ * ========================================================================== */
+
+/* A face of the control mesh and coordinates in it: carvel_sample. */
+using Sample = carvel_sample;
+
+class Surface : public detail::Handle<carvel_surface, detail::destroy> {
+public:
+    using Handle::Handle;
+    /* Hands the object over to the caller. */
+    carvel_surface *release() noexcept { return object_.release(); }
+
+    static Result<Surface> try_create(const Mesh &mesh, const Scheme &scheme,
+                                      const Context *context = nullptr)
+    {
+        detail::Call call;
+        carvel_surface *out = nullptr;
+        call.status = carvel_surface_create(detail::raw(context), mesh.get(), scheme.get(), &out,
+                                            call.error());
+        return call.result(Surface(out));
+    }
+
+    /* 1, or one for each corner of a face. */
+    Result<std::uint32_t> try_sectors(std::uint32_t face) const
+    {
+        detail::Call call;
+        std::uint32_t sectors = 0;
+        call.status = carvel_surface_sectors(get(), face, &sectors, call.error());
+        return call.result(sectors);
+    }
+
+    /* Values on the control vertices to 1, 3 or 6 records for each sample, into your
+     * buffer. Takes what values() takes, or what values(), rows() and columns() give. */
+    template <class V, class O>
+    Result<void> try_evaluate(Span<const Sample> samples, carvel_derivatives derivatives,
+                              const V &control, O &&out, const Context *context = nullptr) const
+    {
+        const ConstValues from = values(control);
+        const Values to = values(out);
+        detail::Call call;
+        call.status = detail::evaluate(get(), detail::raw(context), samples.data(),
+                                       samples.size(), derivatives, &from, &to, call.error());
+        return call.result();
+    }
+
+    /* The table that does the same. */
+    Result<Stencils> try_stencils(Span<const Sample> samples, carvel_derivatives derivatives,
+                                  carvel_precision precision = CARVEL_PRECISION_F32,
+                                  const Context *context = nullptr) const
+    {
+        detail::Call call;
+        carvel_stencils *out = nullptr;
+        call.status = carvel_surface_stencils(detail::raw(context), get(), samples.data(),
+                                              samples.size(),
+                                              static_cast<std::int32_t>(derivatives),
+                                              static_cast<std::int32_t>(precision), &out,
+                                              call.error());
+        return call.result(Stencils(out));
+    }
+
+#if CARVEL_HPP_THROWS
+    static Surface create(const Mesh &mesh, const Scheme &scheme, const Context *context = nullptr)
+    {
+        return try_create(mesh, scheme, context).value();
+    }
+    std::uint32_t sectors(std::uint32_t face) const { return try_sectors(face).value(); }
+    template <class V, class O>
+    void evaluate(Span<const Sample> samples, carvel_derivatives derivatives, const V &control,
+                  O &&out, const Context *context = nullptr) const
+    {
+        try_evaluate(samples, derivatives, control, out, context).value();
+    }
+    Stencils stencils(Span<const Sample> samples, carvel_derivatives derivatives,
+                      carvel_precision precision = CARVEL_PRECISION_F32,
+                      const Context *context = nullptr) const
+    {
+        return try_stencils(samples, derivatives, precision, context).value();
+    }
+#endif
 };
 
 /* ==========================================================================

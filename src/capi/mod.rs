@@ -36,6 +36,7 @@ mod refiner;
 mod scheme;
 mod status;
 mod stencils;
+mod surface;
 mod values;
 mod versioned;
 
@@ -53,4 +54,5 @@ pub use refiner::*;
 pub use scheme::*;
 pub use status::*;
 pub use stencils::*;
+pub use surface::*;
 pub use values::*;

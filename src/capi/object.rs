@@ -10,6 +10,7 @@
 //! | `carvel_refiner` | box around a lock | one call at a time |
 //! | `carvel_hierarchy` | box | by reference |
 //! | `carvel_stencils` | box | by reference; what it makes when first asked is kept |
+//! | `carvel_surface` | box | by reference |
 //! | `carvel_mask` | box | by reference |
 
 use super::status::{

@@ -91,7 +91,7 @@ pub(crate) fn assemble<T: Scalar, S: Send>(
             writer.clear();
         }
     }
-    Ok(table.finish(columns as u32))
+    table.finish(columns as u32)
 }
 
 /// A table that rows are put behind.
@@ -135,9 +135,8 @@ impl<T: Scalar> Growing<T> {
         memory::grow(&mut self.weights, more)
     }
 
-    fn finish(mut self, columns: u32) -> StencilTable<T> {
-        self.indices.shrink_to_fit();
-        self.weights.shrink_to_fit();
-        StencilTable::from_parts(columns, self.offsets, self.indices, self.weights)
+    fn finish(self, columns: u32) -> Result<StencilTable<T>> {
+        let (indices, weights) = (memory::fitted(self.indices)?, memory::fitted(self.weights)?);
+        Ok(StencilTable::from_parts(columns, self.offsets, indices, weights))
     }
 }

@@ -164,7 +164,7 @@ impl<R: Read> Input<R> {
     }
 
     /// An array of numbers of `N` bytes.
-    fn array<T, const N: usize>(
+    fn array<T: Copy, const N: usize>(
         &mut self,
         len: usize,
         number: impl Fn([u8; N]) -> T,
@@ -179,8 +179,7 @@ impl<R: Read> Input<R> {
             memory::grow(&mut list, bytes / N)?;
             list.extend(block.as_chunks::<N>().0.iter().map(|&bytes| number(bytes)));
         }
-        list.shrink_to_fit();
-        Ok(list)
+        memory::fitted(list)
     }
 
     /// The end: a checksum that fits, and nothing more.

@@ -98,14 +98,14 @@ impl<T: Scalar> PlacedWriter<T> {
     }
 
     /// The rows.
-    pub(crate) fn finish(mut self) -> PlacedRows<T> {
+    pub(crate) fn finish(mut self) -> Result<PlacedRows<T>> {
         let PlacedRows { places, weights, .. } = &mut self.rows;
         places.truncate(self.len);
         weights.truncate(self.len);
         // Most of the room was for rows without zeros.
-        places.shrink_to_fit();
-        weights.shrink_to_fit();
-        self.rows
+        *places = memory::fitted(std::mem::take(places))?;
+        *weights = memory::fitted(std::mem::take(weights))?;
+        Ok(self.rows)
     }
 }
 

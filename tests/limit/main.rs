@@ -4,6 +4,7 @@ mod derivatives;
 mod points;
 mod refusals;
 mod regular;
+mod stencils;
 mod weights;
 
 #[path = "../kernel/support/bases.rs"]

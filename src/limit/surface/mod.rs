@@ -9,12 +9,14 @@
 //! | `vicinity` | what decides the surface of the others, with a name |
 //! | `nodes` | a finite graph of all surfaces |
 //! | `evaluation` | the way down |
+//! | `stencils` | the same for values that come again and again |
 
 mod box_spline;
 mod cell;
 mod evaluation;
 mod grid;
 mod nodes;
+mod stencils;
 mod univariate;
 mod vicinity;
 
@@ -34,7 +36,9 @@ use univariate::Univariate;
 /// that vertex at (0, 0), the middle of the corner's outgoing edge at (1, 0), and the face's
 /// middle at (1, 1), as OpenSubdiv's Ptex faces have. On a triangle of Loop's scheme corner 0
 /// lies at (0, 0), corner 1 at (1, 0), corner 2 at (0, 1), and u + v is at most 1.
+// The layout is that of `carvel_sample`.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[repr(C)]
 pub struct Sample {
     /// The face, in the mesh's order.
     pub face: u32,

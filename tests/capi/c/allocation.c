@@ -128,6 +128,11 @@ typedef struct setup {
     carvel_mesh *mesh, *ordered;
     carvel_scheme *scheme;
     carvel_hierarchy *hierarchy;
+    /* A mesh of its own, a quarter as large, and a sample on each of its faces. */
+    poly *patch;
+    carvel_mesh *patch_mesh;
+    carvel_surface *surface;
+    carvel_sample *samples;
     level64 expected, level;
     /* Room for any array of a call: the test's own memory must not run out. */
     double *room;
@@ -302,6 +307,45 @@ static carvel_status ask_origins(setup *it)
     return status;
 }
 
+static carvel_status create_surface(setup *it)
+{
+    carvel_surface *surface = NULL;
+    carvel_status status =
+        carvel_surface_create(it->context, it->patch_mesh, it->scheme, &surface, failure);
+    CHECK((surface != NULL) == (status == CARVEL_STATUS_OK));
+    carvel_surface_destroy(surface);
+    return status;
+}
+
+/* Into records with gaps, through a copy. */
+static carvel_status evaluate_surface(setup *it)
+{
+    carvel_const_values_f64 in;
+    carvel_values_f64 out;
+    memset(&in, 0, sizeof in);
+    in.data = it->patch->positions;
+    in.count = it->patch->vertices;
+    in.width = 3;
+    out.data = it->room;
+    out.count = it->patch->faces;
+    out.width = 3;
+    out.stride = 4 * sizeof(double);
+    return carvel_surface_evaluate_f64(it->surface, it->context, it->samples, it->patch->faces,
+                                       CARVEL_DERIVATIVES_NONE, &in, &out, failure);
+}
+
+static carvel_status surface_stencils(setup *it)
+{
+    uint64_t count = it->patch->faces / 2;
+    carvel_stencils *table = NULL;
+    carvel_status status =
+        carvel_surface_stencils(it->context, it->surface, it->samples, count,
+                                CARVEL_DERIVATIVES_FIRST, CARVEL_PRECISION_F64, &table, failure);
+    CHECK((table != NULL) == (status == CARVEL_STATUS_OK));
+    carvel_stencils_destroy(table);
+    return status;
+}
+
 static carvel_status survey(setup *it)
 {
     carvel_survey all;
@@ -393,6 +437,9 @@ static void check_all(setup *it)
     check_call(it, "create hierarchy", create_hierarchy);
     check_call(it, "refine hierarchy", refine_hierarchy);
     check_call(it, "origins", ask_origins);
+    check_call(it, "create surface", create_surface);
+    check_call(it, "evaluate surface", evaluate_surface);
+    check_call(it, "surface stencils", surface_stencils);
     check_call(it, "survey", survey);
     check_call(it, "histogram", histogram);
     check_call(it, "rows", rows);
@@ -472,6 +519,7 @@ static carvel_mesh *cut(const poly *it)
 
 static void setup_take(setup *it, uint32_t side, uint32_t levels)
 {
+    uint64_t f;
     it->levels = levels;
     it->control = poly_grid(side, side);
     it->shuffled = shuffle(it->control);
@@ -482,6 +530,16 @@ static void setup_take(setup *it, uint32_t side, uint32_t levels)
     it->scheme = scheme_of(CARVEL_SCHEME_THREE_POINT, 0);
     it->hierarchy = hierarchy_of(it->mesh, it->scheme, levels);
     it->context = NULL;
+    it->patch = poly_grid(side / 2, side / 2);
+    it->patch_mesh = poly_mesh(it->patch);
+    it->surface = NULL;
+    CHECK_OK(carvel_surface_create(NULL, it->patch_mesh, it->scheme, &it->surface, failure));
+    it->samples = TAKE(carvel_sample, it->patch->faces);
+    for (f = 0; f < it->patch->faces; f++) {
+        it->samples[f].face = (uint32_t)f;
+        it->samples[f].sector = 0;
+        it->samples[f].u = it->samples[f].v = 0.25;
+    }
     level64_refine(&it->expected, NULL, it->mesh, it->scheme, levels, it->control->positions);
     level64_take(&it->level, &it->expected.counts);
     it->room = TAKE(double, 4 * it->expected.counts.vertices);
@@ -492,6 +550,10 @@ static void setup_free(setup *it)
     free(it->room);
     level64_free(&it->level);
     level64_free(&it->expected);
+    free(it->samples);
+    carvel_surface_destroy(it->surface);
+    carvel_mesh_destroy(it->patch_mesh);
+    poly_free(it->patch);
     carvel_hierarchy_destroy(it->hierarchy);
     carvel_scheme_destroy(it->scheme);
     carvel_mesh_destroy(it->ordered);

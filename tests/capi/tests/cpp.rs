@@ -12,8 +12,8 @@ use carvel_capi_tests::{root, work_directory};
 /// Where Debian and a local installation have Eigen, as a system's header.
 const EIGEN: [&str; 3] =
     ["-pthread", "-isystem/usr/include/eigen3", "-isystem/usr/local/include/eigen3"];
-const PROGRAMS: [&str; 7] =
-    ["handles", "errors", "arrays", "progress", "queries", "stencils", "masks"];
+const PROGRAMS: [&str; 8] =
+    ["handles", "errors", "arrays", "progress", "queries", "stencils", "surface", "masks"];
 
 fn source(name: &str) -> PathBuf {
     root().join("tests/capi/cpp").join(format!("{name}.cpp"))

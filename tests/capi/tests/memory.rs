@@ -64,6 +64,11 @@ fn channels_are_clean() {
 }
 
 #[test]
+fn surfaces_are_clean() {
+    memcheck("surface", &[]);
+}
+
+#[test]
 fn contexts_are_clean() {
     memcheck("context", &["4"]);
 }

@@ -69,6 +69,11 @@ fn stencil_tables_do_what_hierarchies_do() {
 }
 
 #[test]
+fn surfaces_are_evaluated_anywhere() {
+    run_with_both("surface", &[]);
+}
+
+#[test]
 fn masks_answer_as_computed_by_hand() {
     run_with_both("mask", &[]);
 }

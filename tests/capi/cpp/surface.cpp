@@ -1,0 +1,42 @@
+/* Surfaces through C++: every function, a table beside evaluation, errors. */
+#include "check.hpp"
+
+#include <cmath>
+#include <cstdio>
+
+static const Pyramid pyramid;
+
+int main()
+{
+    const carvel::Mesh mesh = carvel::Mesh::create(pyramid.faces());
+    const carvel::Scheme scheme = carvel::Scheme::create({CARVEL_SCHEME_CATMULL_CLARK});
+    const carvel::Surface surface = carvel::Surface::create(mesh, scheme);
+    std::uint32_t sectors = 0;
+    for (std::uint32_t face = 0; face < 5; face++)
+        sectors += surface.sectors(face);
+    CHECK(sectors == 1 + 4 * 3);
+    CHECK(surface.try_sectors(5).error().status() == CARVEL_STATUS_PARAMETER_OUT_OF_RANGE);
+
+    const std::vector<double> control = {0, 0, 1, 1, 0, 0, 0, 1, 0, -1, 0, 0, 0, -1, 0};
+    const std::vector<carvel::Sample> samples = {{0, 0, 0.25, 0.5}, {1, 0, 0.5, 0.75}};
+    std::vector<double> out(2 * 3 * 3), again(out.size());
+    surface.evaluate(samples, CARVEL_DERIVATIVES_FIRST, control, carvel::values(out, 3));
+    const carvel::Stencils table =
+        surface.stencils(samples, CARVEL_DERIVATIVES_FIRST, CARVEL_PRECISION_F64);
+    CHECK(table.counts().rows == 6 && table.counts().columns == 5);
+    table.apply(control, again);
+    for (std::size_t i = 0; i < out.size(); i++)
+        CHECK(std::fabs(out[i] - again[i]) < 1e-13);
+
+    const std::vector<float> single(control.begin(), control.end());
+    std::vector<float> point(2 * 3);
+    surface.evaluate(samples, CARVEL_DERIVATIVES_NONE, single, point);
+    for (std::size_t k = 0; k < 3; k++)
+        CHECK(std::fabs(point[k] - out[k]) < 1e-6);
+
+    const carvel::Sample outside[] = {{0, 0, 2, 0}};
+    const auto refused = surface.try_evaluate(outside, CARVEL_DERIVATIVES_NONE, control, again);
+    CHECK(refused.error().status() == CARVEL_STATUS_PARAMETER_OUT_OF_RANGE);
+    CHECK(!surface.try_stencils(outside, CARVEL_DERIVATIVES_NONE));
+    std::puts("surface: ok");
+}
