@@ -132,45 +132,6 @@ fn triangles_do_so_as_well() {
     }
 }
 
-/// Refined vertices themselves come nearer by the square of the step, whatever is around them:
-/// a way to the surface that knows nothing of limits.
-#[test]
-fn primal_refinement_goes_to_the_surface() {
-    let loop_scheme = Scheme::loop_triangles();
-    let quads = [bases::cube(), bases::prism(5)].map(|of| (of, primal_schemes()));
-    let triangles =
-        [bases::octahedron(), bases::bipyramid(7)].map(|of| (of, vec![loop_scheme.clone()]));
-    for (of, schemes) in quads.into_iter().chain(triangles) {
-        let shape = Shape::new(&of);
-        for scheme in schemes {
-            let surface = shape.surface(&scheme);
-            let hierarchy =
-                Hierarchy::new(&Context::serial(), shape.mesh.clone(), scheme.clone(), 6).unwrap();
-            let distance = |level: u32| {
-                let mesh = hierarchy.mesh(level);
-                let mut refined = vec![0.0; WIDTH * mesh.vertices()];
-                let context = Context::serial();
-                hierarchy.refine(&context, level, &shape.values, WIDTH, &mut refined).unwrap();
-                // The children of the corners of the faces of level 1, and all around them.
-                let pieces = pieces(&hierarchy, &surface, level);
-                let step = 4_usize.pow(level - 3);
-                let mut most: f64 = 0.0;
-                for (face, piece) in pieces.iter().enumerate().step_by(step) {
-                    let v = mesh.face_vertices(face)[2] as usize;
-                    let uv = piece.corners[2];
-                    let found = shape.point(&surface, at(piece.face, piece.sector, uv));
-                    for (x, y) in found.iter().zip(&refined[WIDTH * v..]) {
-                        most = most.max((x - y).abs());
-                    }
-                }
-                most
-            };
-            let [coarse, fine] = [4, 6].map(distance);
-            assert!(fine <= 1e-12 || fine < coarse / 10.0, "{scheme:?}: {coarse}, then {fine}");
-        }
-    }
-}
-
 /// Faces of a dual step lie in the middle of their parents.
 #[test]
 fn dual_surfaces_meet_the_limits_inside_faces() {

@@ -113,7 +113,9 @@ fn limit(n: usize, half: &[f64]) -> Result<Vec<f64>> {
     for _ in 0..ROUNDS {
         row = times(&row, half);
         let sum: f64 = row.iter().sum();
-        row.iter_mut().for_each(|weight| *weight /= sum);
+        for weight in &mut row {
+            *weight /= sum;
+        }
     }
     let next = times(&row, half);
     let moved = row.iter().zip(&next).fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()));

@@ -77,12 +77,11 @@ impl Patches<'_> {
             Node::Refused(why) => return Err(unsupported(why)),
             Node::Split { .. } => {
                 let memo = &mut scratch.memo;
-                let root = match memo.root(cell.corner) {
-                    Some(root) => root,
-                    None => {
-                        cell.gather(&mut scratch.points)?;
-                        memo.add_root(cell.corner, start.node, jacobian, &scratch.points, width)?
-                    }
+                let root = if let Some(root) = memo.root(cell.corner) {
+                    root
+                } else {
+                    cell.gather(&mut scratch.points)?;
+                    memo.add_root(cell.corner, start.node, jacobian, &scratch.points, width)?
                 };
                 let (place, at) = self.descend(root, start.at, out.len() == width, width, memo)?;
                 let memo = &scratch.memo;
@@ -130,12 +129,11 @@ impl Patches<'_> {
             if stays && !position_only {
                 return Err(unsupported("derivatives do not exist at a feature"));
             }
-            place = match here.child(turn) {
-                Some(known) => known,
-                None => {
-                    let jacobian = map.after(here.jacobian);
-                    memo.add_child(place, turn, child, jacobian, width)?
-                }
+            place = if let Some(known) = here.child(turn) {
+                known
+            } else {
+                let jacobian = map.after(here.jacobian);
+                memo.add_child(place, turn, child, jacobian, width)?
             };
             if stays && memo.place(place).is_within(TOGETHER) {
                 return Ok((place, None));
@@ -204,7 +202,9 @@ impl Patches<'_> {
             let mut scale = 1.0;
             for weights in taps.chunks_exact_mut(n) {
                 if is_dual {
-                    weights.iter_mut().for_each(|weight| *weight *= scale);
+                    for weight in weights.iter_mut() {
+                        *weight *= scale;
+                    }
                     scale *= 0.5;
                 }
                 if extent[axis] != self.window {

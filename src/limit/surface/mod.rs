@@ -13,14 +13,19 @@
 //! | `lanes` | sums of points |
 //! | `evaluation` | the way down |
 
+#[allow(clippy::needless_range_loop, reason = "several arrays share an index")]
 mod box_spline;
 mod cell;
 mod digits;
+#[allow(clippy::needless_range_loop, reason = "several arrays share an index")]
 mod evaluation;
 mod grid;
+#[allow(clippy::needless_range_loop, reason = "several arrays share an index")]
 mod lanes;
+#[allow(clippy::needless_range_loop, reason = "several arrays share an index")]
 mod memo;
 mod nodes;
+#[allow(clippy::needless_range_loop, reason = "several arrays share an index")]
 mod univariate;
 mod vicinity;
 
