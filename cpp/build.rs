@@ -12,7 +12,7 @@ const NEEDED: [(&str, &str); 3] = [
 /// Where headers are looked for: the system's places, which compilers search too.
 const PLACES: [&str; 2] = ["/usr/include", "/usr/local/include"];
 
-const SOURCES: [&str; 8] = [
+const SOURCES: [&str; 9] = [
     "shim/cgal_double.cpp",
     "shim/cgal_single.cpp",
     "shim/check.cpp",
@@ -21,6 +21,7 @@ const SOURCES: [&str; 8] = [
     "shim/opensubdiv.cpp",
     "shim/osd_topology.cpp",
     "shim/stencils.cpp",
+    "shim/surface.cpp",
 ];
 
 fn main() {

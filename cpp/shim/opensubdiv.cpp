@@ -238,6 +238,38 @@ std::unique_ptr<Osd> osd_new(const Soup &soup, const Tags &tags, const OsdOption
 
 std::unique_ptr<Run> osd_into_run(std::unique_ptr<Osd> osd) { return osd; }
 
+void osd_limits(const Soup &soup, const Tags &tags, const OsdOptions &options,
+                std::uint32_t level, rust::Slice<double> points, rust::Slice<double> first,
+                rust::Slice<double> second) {
+  if (level > 15) throw std::invalid_argument("OpenSubdiv counts levels in four bits");
+  const auto refiner = Topology(soup, tags, options).refiner();
+  Far::TopologyRefiner::UniformOptions uniform(static_cast<int>(level));
+  // Limits ask for the neighbours of the last level's vertices.
+  uniform.fullTopologyInLastLevel = true;
+  refiner->RefineUniform(uniform);
+  osd_check();
+  const Far::PrimvarRefinerReal<double> primvar(*refiner);
+  auto now = xyz_of<double>(soup.positions);
+  for (int n = 1; n <= refiner->GetMaxLevel(); ++n) {
+    std::vector<Xyz<double>> next(refiner->GetLevel(n).GetNumVertices());
+    const Xyz<double> *from = now.data();
+    Xyz<double> *to = next.data();
+    primvar.Interpolate(n, from, to);
+    now.swap(next);
+  }
+  std::vector<Xyz<double>> limits[3];
+  for (auto &list : limits) list.resize(now.size());
+  const Xyz<double> *from = now.data();
+  Xyz<double> *to[3] = {limits[0].data(), limits[1].data(), limits[2].data()};
+  primvar.Limit(from, to[0], to[1], to[2]);
+  osd_check();
+  rust::Slice<double> out[3] = {points, first, second};
+  for (int k = 0; k < 3; ++k) {
+    check_length("limits", out[k].size(), 3 * now.size());
+    for (std::size_t i = 0; i < out[k].size(); ++i) out[k][i] = limits[k][i / 3].at[i % 3];
+  }
+}
+
 void osd_refine(Osd &osd, std::uint32_t levels) { osd.refine(levels); }
 
 void osd_copy(const Osd &osd, rust::Slice<std::uint32_t> sizes, rust::Slice<std::uint32_t> indices,

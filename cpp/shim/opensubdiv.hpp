@@ -33,6 +33,10 @@ std::unique_ptr<Run> osd_into_run(std::unique_ptr<Osd> osd);
 void osd_refine(Osd &osd, std::uint32_t levels);
 void osd_copy(const Osd &osd, rust::Slice<std::uint32_t> sizes, rust::Slice<std::uint32_t> indices,
               rust::Slice<double> positions);
+// Limits of the vertices of a level and two tangents there, xyz each, by PrimvarRefiner::Limit.
+void osd_limits(const Soup &soup, const Tags &tags, const OsdOptions &options,
+                std::uint32_t level, rust::Slice<double> points, rust::Slice<double> first,
+                rust::Slice<double> second);
 rust::Vec<rust::String> osd_take_warnings();
 
 }  // namespace carvel_peers

@@ -126,6 +126,16 @@ pub(crate) mod ffi {
             width: usize,
             out: &mut [f64],
         ) -> Result<()>;
+        /// Limits of a level's vertices and two tangents there.
+        fn osd_limits(
+            soup: &Soup,
+            tags: &Tags,
+            options: &OsdOptions,
+            level: u32,
+            points: &mut [f64],
+            first: &mut [f64],
+            second: &mut [f64],
+        ) -> Result<()>;
         /// The library's warnings on this thread since the last call.
         fn osd_take_warnings() -> Vec<String>;
 
@@ -169,6 +179,39 @@ pub(crate) mod ffi {
         fn bytes(self: &Stencils) -> usize;
         /// 0 positions, 1 and 2 the derivatives of a limit table.
         fn copy_values(self: &Stencils, which: u8, out: &mut [f64]) -> Result<()>;
+
+        include!("carvel-peers/shim/surface.hpp");
+
+        /// Patches of the limit surface, and samples on them.
+        type Patches;
+
+        /// `Far::PatchTable` with Gregory end caps; `isolation` levels of features, up to 10.
+        fn far_patches_new(
+            soup: &Soup,
+            tags: &Tags,
+            options: &OsdOptions,
+            precision: Precision,
+            isolation: u32,
+        ) -> Result<UniquePtr<Patches>>;
+        /// `Bfr::Surface` of each face; the same levels for smooth and sharp features.
+        fn bfr_patches_new(
+            soup: &Soup,
+            tags: &Tags,
+            options: &OsdOptions,
+            precision: Precision,
+            isolation: u32,
+        ) -> Result<UniquePtr<Patches>>;
+        /// Where to evaluate: a face, a sector, and (u, v) for each sample.
+        fn place(
+            self: Pin<&mut Patches>,
+            faces: &[u32],
+            sectors: &[u32],
+            parameters: &[f64],
+        ) -> Result<()>;
+        /// One, three or six records of each sample; timed.
+        fn evaluate(self: Pin<&mut Patches>, records: u8) -> Result<()>;
+        #[rust_name = "copy_samples"]
+        fn copy(self: &Patches, out: &mut [f64]) -> Result<()>;
 
         include!("carvel-peers/shim/heap.hpp");
 

@@ -18,13 +18,15 @@ mod peer;
 mod run;
 pub mod shapes;
 mod stencils;
+mod surface;
 
 pub use cgal::Cgal;
 pub use control::{Boundary, Creasing, FaceVarying, Triangles};
 pub use control::{Channel, Control, Crease, Options, SharpVertex};
 pub use normalise::Comparison;
 pub use openmesh::OpenMesh;
-pub use opensubdiv::{Level, OpenSubdiv, Refinement, Values};
+pub use opensubdiv::{Level, OpenSubdiv, Refinement, Values, VertexLimits};
 pub use peer::{PEERS, Peer, PeerMesh, Precision, Result, Scheme, Task};
 pub use run::Run;
 pub use stencils::Stencils;
+pub use surface::{Patches, Place};

@@ -41,6 +41,32 @@ impl OpenSubdiv {
     }
 }
 
+/// Where the vertices of a level go in the limit, in OpenSubdiv's numbering; xyz each.
+#[derive(Debug, Clone, PartialEq)]
+pub struct VertexLimits {
+    /// The points.
+    pub points: Vec<f64>,
+    /// Two tangents.
+    pub tangents: [Vec<f64>; 2],
+}
+
+impl OpenSubdiv {
+    /// Limits in double precision of a level with this many vertices, by
+    /// `PrimvarRefiner::Limit`, which takes semi-sharp features for sharp ones.
+    ///
+    /// # Errors
+    /// What OpenSubdiv does not take, or for another number of vertices.
+    pub fn limits(self, task: &Task, level: u32, vertices: usize) -> Result<VertexLimits> {
+        let tags = Tags::of(task.control);
+        let options = options(&self, task.scheme, task.options)?;
+        let [mut points, mut first, mut second] = [(); 3].map(|()| vec![0.0; 3 * vertices]);
+        let (soup, tags) = (task.control.soup(), tags.view());
+        ffi::osd_limits(&soup, &tags, &options, level, &mut points, &mut first, &mut second)
+            .map_err(message)?;
+        Ok(VertexLimits { points, tangents: [first, second] })
+    }
+}
+
 fn create(task: &Task) -> Result<UniquePtr<ffi::Osd>> {
     let tags = Tags::of(task.control);
     let options = options(&OpenSubdiv, task.scheme, task.options)?;

@@ -3,12 +3,15 @@
 use crate::lineage::Ours;
 use crate::opensubdiv::Values;
 use crate::{
-    Boundary, Control, Creasing, FaceVarying, PeerMesh, Precision, Result, Scheme, Task, Triangles,
+    Boundary, Control, Creasing, FaceVarying, PeerMesh, Place, Precision, Result, Scheme, Task,
+    Triangles,
 };
 use carvel::base::Scalar;
+use carvel::limit::{Limits, Sample, Surface};
 use carvel::mesh::{BuildOptions, Channel, FaceVaryingMode, NonManifold, build};
 use carvel::scheme::TriangleRule;
-use carvel::{Attribute, Context, Error, Mesh, Refined, Refiner};
+use carvel::{Attribute, Context, Error, Hierarchy, Mesh, Records, RecordsMut, Refined, Refiner};
+use std::sync::Arc;
 
 /// What carvel gave back, in its own numbering.
 #[derive(Debug, Clone, PartialEq)]
@@ -183,6 +186,62 @@ impl Given<'_> {
         let holes = ours.holes(&mesh).map_err(one_line)?;
         Ok(answer(&refined, &holes))
     }
+}
+
+/// carvel's surface of a task, and the face of its mesh for each of the caller's.
+///
+/// # Errors
+/// What carvel does not take or does not have.
+pub fn surface(task: &Task) -> Result<(Surface, Vec<u32>)> {
+    let scheme = scheme(task).ok_or_else(|| format!("carvel lacks {}", task.scheme.name()))?;
+    let mesh = Arc::new(mesh(task.control)?);
+    let mut faces = vec![0; mesh.faces()];
+    (0..mesh.faces()).for_each(|face| faces[mesh.face_source(face)] = face as u32);
+    let surface = Surface::new(&Context::serial(), &mesh, &scheme).map_err(one_line)?;
+    Ok((surface, faces))
+}
+
+/// Places as carvel takes them.
+pub fn samples(faces: &[u32], places: &[Place]) -> Vec<Sample> {
+    let sample = |place: &Place| {
+        let &Place { face, sector, uv: [u, v] } = place;
+        Sample { face: faces[face as usize], sector, u, v }
+    };
+    places.iter().map(sample).collect()
+}
+
+/// Limits of a level's vertices in double precision, in carvel's numbering.
+pub struct VertexLimits {
+    /// xyz each.
+    pub points: Vec<f64>,
+    /// xyz each, of length 1.
+    pub normals: Vec<f64>,
+    /// Whether there are tangents.
+    pub planes: Vec<bool>,
+}
+
+/// The limits of a level's vertices.
+///
+/// # Errors
+/// What carvel does not take or does not have.
+pub fn limits(task: &Task, level: u32) -> Result<VertexLimits> {
+    let scheme = scheme(task).ok_or_else(|| format!("carvel lacks {}", task.scheme.name()))?;
+    let context = Context::serial();
+    let hierarchy = Hierarchy::new(&context, mesh(task.control)?, scheme.clone(), level);
+    let hierarchy = hierarchy.map_err(one_line)?;
+    let mesh = hierarchy.shared_mesh(level).map_err(one_line)?;
+    let mut refined = vec![0.0; 3 * mesh.vertices()];
+    hierarchy
+        .refine(&context, level, &task.control.positions, 3, &mut refined)
+        .map_err(one_line)?;
+    let limits = Limits::<f64>::new(&context, &mesh, &scheme).map_err(one_line)?;
+    let [mut points, mut normals] = [(); 2].map(|()| vec![0.0; refined.len()]);
+    let (values, out) = (Records::packed(&refined, 3), RecordsMut::packed(&mut points, 3));
+    limits.position().apply(&context, values, out).map_err(one_line)?;
+    limits.normals(&context, &refined, &mut normals).map_err(one_line)?;
+    let plane = |v: usize| limits.tangents().iter().all(|table| !table.row(v).0.is_empty());
+    let planes = (0..mesh.vertices()).map(plane).collect();
+    Ok(VertexLimits { points, normals, planes })
 }
 
 #[expect(clippy::needless_pass_by_value, reason = "map_err gives it away")]

@@ -22,7 +22,6 @@ mod smooth;
 mod tuned;
 mod tuned_numbers;
 
-#[cfg(feature = "capi")]
 pub(crate) use averaging::MOST_PASSES;
 pub(crate) use choice::Method;
 pub use choice::{Scheme, SplitKind};

@@ -61,3 +61,32 @@ fn threads_change_no_bit_and_singles_are_near() {
         assert_near(&near, &alone, 1e-6, "single precision");
     }
 }
+
+/// Samples share the way down to them. More than is remembered of it here leads to where a
+/// sample alone is led.
+#[test]
+fn what_is_remembered_changes_no_bit() {
+    const WIDE: usize = 128;
+    let shape = Shape::new(&bases::cube());
+    let values: Vec<f64> = (0..8 * WIDE).map(|i| ((i * i) as f64).sin()).collect();
+    let near = |i: usize| 0.75 * 0.5_f64.powi(i as i32 % 40);
+    let samples: Vec<Sample> = (0..240).map(|i| at(i % 6, 0, [near(i), near(i / 6)])).collect();
+    for scheme in [Scheme::catmull_clark(), Scheme::doo_sabin()] {
+        let surface = shape.surface(&scheme);
+        let evaluate = |samples: &[Sample]| {
+            let mut out = vec![0.0; samples.len() * WIDE * 3];
+            let (context, first) = (Context::serial(), Derivatives::First);
+            surface.evaluate(&context, samples, &values, WIDE, first, &mut out).unwrap();
+            out
+        };
+        let together = evaluate(&samples);
+        let twice = evaluate(&[&samples[..], &samples[..]].concat());
+        for (i, sample) in samples.iter().enumerate() {
+            let alone = evaluate(&[*sample]);
+            for all in [&together, &twice[..together.len()], &twice[together.len()..]] {
+                let found = &all[i * WIDE * 3..][..WIDE * 3];
+                assert!(found.iter().zip(&alone).all(|(a, b)| a.to_bits() == b.to_bits()));
+            }
+        }
+    }
+}

@@ -2,85 +2,159 @@
 //!
 //! In barycentric coordinates a, b, c the polynomials are of three kinds, each symmetric: of a
 //! corner, of the vertex across an edge, and of the two others beside a corner (Stam 1998,
-//! "Evaluation of Loop subdivision surfaces").
+//! "Evaluation of Loop subdivision surfaces"). They are short since a + b + c = 1.
 
+use super::lanes::{Block, ZERO, plus};
 use crate::base::NONE;
+use crate::base::simd::InnerLoop;
 use crate::mesh::{INFINITE, Mesh};
 use crate::scheme::Scheme;
 
-/// A factor and the exponents of three coordinates.
-type Term = (f64, [i32; 3]);
+/// A value at each of the three corners, and its derivatives: `R` records of them, in the order
+/// of [`super::evaluation::PARTIALS`]. The fourth is there for the sake of the processor.
+#[derive(Clone, Copy)]
+struct Jet<const R: usize>([[f64; 4]; R]);
 
-/// At the corner of the first coordinate.
-const CORNER: [Term; 15] = [
-    (6.0, [4, 0, 0]),
-    (24.0, [3, 1, 0]),
-    (24.0, [3, 0, 1]),
-    (24.0, [2, 2, 0]),
-    (60.0, [2, 1, 1]),
-    (24.0, [2, 0, 2]),
-    (8.0, [1, 3, 0]),
-    (36.0, [1, 2, 1]),
-    (36.0, [1, 1, 2]),
-    (8.0, [1, 0, 3]),
-    (1.0, [0, 4, 0]),
-    (6.0, [0, 3, 1]),
-    (12.0, [0, 2, 2]),
-    (6.0, [0, 1, 3]),
-    (1.0, [0, 0, 4]),
-];
-/// Across the edge between the first two.
-const ACROSS: [Term; 9] = [
-    (1.0, [4, 0, 0]),
-    (6.0, [3, 1, 0]),
-    (12.0, [2, 2, 0]),
-    (6.0, [1, 3, 0]),
-    (1.0, [0, 4, 0]),
-    (2.0, [3, 0, 1]),
-    (2.0, [0, 3, 1]),
-    (6.0, [2, 1, 1]),
-    (6.0, [1, 2, 1]),
-];
-/// Beside the first corner, on the side of the second.
-const BESIDE: [Term; 2] = [(1.0, [4, 0, 0]), (2.0, [3, 1, 0])];
+impl<const R: usize> Jet<R> {
+    /// Numbers that are the same everywhere.
+    #[inline(always)]
+    fn constant(x: f64) -> Self {
+        let mut jet = Self([[0.0; 4]; R]);
+        jet.0[0] = [x; 4];
+        jet
+    }
 
-/// Weights of the twelve points, in the order of [`points`], for a derivative by u and v, so
-/// many times each, at barycentric coordinates (1 − u − v, u, v).
-pub(super) fn taps(u: f64, v: f64, by: [usize; 2]) -> [f64; 12] {
-    let at = [1.0 - u - v, u, v];
-    let value = |terms: &[Term], order: [usize; 3]| {
-        let sum = |sum: f64, term: &Term| sum + derived(*term, order, at, by);
-        terms.iter().fold(0.0, sum) / 12.0
-    };
-    let kind = |i: usize| match i {
-        0..3 => value(&CORNER, [i, (i + 1) % 3, (i + 2) % 3]),
-        3..6 => value(&ACROSS, [i % 3, (i + 1) % 3, (i + 2) % 3]),
-        6..9 => value(&BESIDE, [i % 3, (i + 1) % 3, (i + 2) % 3]),
-        _ => value(&BESIDE, [i % 3, (i + 2) % 3, (i + 1) % 3]),
-    };
-    std::array::from_fn(kind)
+    /// The barycentric coordinates of the corners 0, 1, 2.
+    #[inline(always)]
+    fn coordinates(u: f64, v: f64) -> Self {
+        let mut jet = Self([[0.0; 4]; R]);
+        jet.0[0] = [1.0 - u - v, u, v, 0.0];
+        if R >= 3 {
+            jet.0[1] = [-1.0, 1.0, 0.0, 0.0];
+            jet.0[2] = [-1.0, 0.0, 1.0, 0.0];
+        }
+        jet
+    }
+
+    /// What the next corner has.
+    #[inline(always)]
+    fn next(self) -> Self {
+        let mut next = self;
+        for [a, b, c, _] in &mut next.0 {
+            (*a, *b, *c) = (*b, *c, *a);
+        }
+        next
+    }
+
+    #[inline(always)]
+    fn plus(self, other: Self) -> Self {
+        let mut sum = self;
+        for (record, other) in sum.0.iter_mut().zip(other.0) {
+            for k in 0..4 {
+                record[k] += other[k];
+            }
+        }
+        sum
+    }
+
+    #[inline(always)]
+    fn scaled(self, factor: f64) -> Self {
+        let mut scaled = self;
+        for record in &mut scaled.0 {
+            for k in 0..4 {
+                record[k] *= factor;
+            }
+        }
+        scaled
+    }
+
+    /// By Leibniz's rule.
+    #[inline(always)]
+    fn times(self, other: Self) -> Self {
+        let (a, b) = (&self.0, &other.0);
+        let mut product = Self([[0.0; 4]; R]);
+        for k in 0..4 {
+            product.0[0][k] = a[0][k] * b[0][k];
+            for by in 1..R.min(3) {
+                product.0[by][k] = a[by][k] * b[0][k] + a[0][k] * b[by][k];
+            }
+            for by in 3..R {
+                let [one, other] = [[1, 1], [1, 2], [2, 2]][by - 3];
+                product.0[by][k] = a[by][k] * b[0][k]
+                    + a[one][k] * b[other][k]
+                    + a[other][k] * b[one][k]
+                    + a[0][k] * b[by][k];
+            }
+        }
+        product
+    }
 }
 
-/// A derivative of a term whose coordinates are named in an order.
-fn derived(term: Term, order: [usize; 3], at: [f64; 3], by: [usize; 2]) -> f64 {
-    let (factor, exponents) = term;
-    let Some(axis) = (0..2).find(|&axis| by[axis] > 0) else {
-        let power = |i: usize| (0..exponents[i]).fold(1.0, |power, _| power * at[order[i]]);
-        return factor * power(0) * power(1) * power(2);
-    };
-    let mut less = by;
-    less[axis] -= 1;
-    // With u or v the first coordinate falls and their own rises.
-    let part = |coordinate: usize, sign: f64| {
-        let i = (0..3).find(|&i| order[i] == coordinate).unwrap_or(0);
-        if exponents[i] == 0 {
-            return 0.0;
+/// A regular triangle with its twelve points at (u, v).
+pub(super) struct Triangle<'a, const R: usize> {
+    pub(super) at: [f64; 2],
+    pub(super) points: &'a [Block],
+    /// Of the position and derivatives.
+    pub(super) sums: &'a mut [Block],
+    /// Of a record.
+    pub(super) blocks: usize,
+}
+
+impl<const R: usize> InnerLoop for Triangle<'_, R> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run(self) {
+        let weights = taps::<R>(self.at[0], self.at[1]);
+        for block in 0..self.blocks {
+            let mut sums = [ZERO; R];
+            for (i, point) in self.points.chunks_exact(self.blocks).take(12).enumerate() {
+                for record in 0..R {
+                    sums[record] = plus(sums[record], weights[record][i], &point[block]);
+                }
+            }
+            for record in 0..R {
+                self.sums[record * self.blocks + block] = sums[record];
+            }
         }
-        let mut lower = exponents;
-        lower[i] -= 1;
-        derived((sign * factor * f64::from(exponents[i]), lower), order, at, less)
-    };
-    part(axis + 1, 1.0) + part(0, -1.0)
+    }
+}
+
+/// Weights of the twelve points, in the order of [`points`], for the position and derivatives by
+/// u and v, at barycentric coordinates (1 − u − v, u, v).
+///
+/// For a corner with coordinate a, the others being b and c: 12 times its weight is
+/// 1 + 4a + 6a² − 4a³ − a⁴ + 2bc(1 + 4a + a² + bc); of the vertex across the edge between the
+/// coordinates b and c it is p³(1 + a) + 2bc(p² + bc) with p = b + c; and beside a corner, on the
+/// side of b, a³(a + 2b).
+#[inline(always)]
+fn taps<const R: usize>(u: f64, v: f64) -> [[f64; 12]; R] {
+    let one = Jet::<R>::constant(1.0);
+    let a = Jet::coordinates(u, v);
+    let (b, c) = (a.next(), a.next().next());
+    let (square, both, sum) = (a.times(a), b.times(c), b.plus(c));
+    let cube = a.times(square);
+    let even = one.plus(a.scaled(4.0)).plus(square);
+    let corner = even
+        .plus(square.scaled(5.0))
+        .plus(cube.times(a.plus(one.scaled(4.0))).scaled(-1.0))
+        .plus(both.times(even.plus(both)).scaled(2.0));
+    let opposite = sum.times(sum);
+    let across =
+        opposite.times(sum.times(one.plus(a))).plus(both.times(opposite.plus(both)).scaled(2.0));
+    // Across the edge after each corner, which the corner before it is opposite to.
+    let across = across.next().next();
+    let beside = [cube.times(a.plus(b.scaled(2.0))), cube.times(a.plus(c.scaled(2.0)))];
+    let mut taps = [[0.0; 12]; R];
+    for record in 0..R {
+        for k in 0..3 {
+            taps[record][k] = corner.0[record][k] * (1.0 / 12.0);
+            taps[record][3 + k] = across.0[record][k] * (1.0 / 12.0);
+            taps[record][6 + k] = beside[0].0[record][k] * (1.0 / 12.0);
+            taps[record][9 + k] = beside[1].0[record][k] * (1.0 / 12.0);
+        }
+    }
+    taps
 }
 
 /// Vertices with factors.

@@ -1,10 +1,14 @@
 //! A point of the surface: down from cell to cell to a regular patch, or on to where a cell's
 //! points become one.
 
-use super::box_spline;
+use super::box_spline::Triangle;
+use super::cell::IDENTITY;
+use super::lanes::{Block, LANES, Tensor, ZERO, blocks, plus};
+use super::memo::Memo;
 use super::nodes::Node;
-use super::univariate::Univariate;
-use crate::base::{Error, ErrorKind, Result, memory};
+use super::univariate::{ORDERS, Univariate};
+use crate::base::simd::with_widest;
+use crate::base::{Error, ErrorKind, Result, Scalar, memory};
 
 /// Steps after which points that do not come together are given up.
 const MOST_STEPS: u32 = 4000;
@@ -31,15 +35,21 @@ pub(super) struct Start {
     pub(super) jacobian: [[f64; 2]; 2],
 }
 
-/// Memory of a thread.
+/// The first cell of a corner: its control vertices, and values of all control vertices.
+pub(super) struct Cell<'a, T> {
+    pub(super) corner: u32,
+    pub(super) vertices: &'a [u32],
+    pub(super) values: &'a [T],
+    pub(super) width: usize,
+}
+
+/// Memory of a thread, for values that stay the same.
 #[derive(Default)]
 pub(super) struct Scratch {
-    /// The points of a cell, and those of the next.
-    pub(super) points: Vec<f64>,
-    next: Vec<f64>,
-    origin: Vec<f64>,
-    taps: [[Vec<f64>; 3]; 2],
-    weights: Vec<f64>,
+    points: Vec<Block>,
+    sums: Vec<Block>,
+    taps: Vec<f64>,
+    memo: Memo,
 }
 
 fn unsupported(message: &str) -> Error {
@@ -47,54 +57,117 @@ fn unsupported(message: &str) -> Error {
 }
 
 impl Patches<'_> {
-    /// Writes the position and derivatives of a point: as many records of `width` numbers as
-    /// `out` holds, in the order of [`PARTIALS`]. The points of the first cell are in `scratch`.
-    pub(super) fn evaluate(
+    /// Writes the position and derivatives of a point: as many records as `out` holds, in the
+    /// order of [`PARTIALS`].
+    pub(super) fn evaluate<T: Scalar>(
         &self,
+        cell: &Cell<'_, T>,
         start: Start,
-        width: usize,
         scratch: &mut Scratch,
         out: &mut [f64],
     ) -> Result<()> {
-        let Start { mut node, mut at, mut jacobian } = start;
-        out.fill(0.0);
-        scratch.origin.clear();
-        memory::extend(&mut scratch.origin, std::iter::repeat_n(0.0, width))?;
-        let mut first_spread = None;
-        for _ in 0..MOST_STEPS {
-            match &self.nodes[node as usize] {
-                Node::Refused(why) => return Err(unsupported(why)),
-                Node::Grid(extent) => {
-                    self.grid(*extent, at, width, scratch, out)?;
-                    return finish(jacobian, width, &scratch.origin, out);
-                }
-                Node::Triangle => {
-                    triangle(at, width, &scratch.points, out);
-                    return finish(jacobian, width, &scratch.origin, out);
-                }
-                Node::Split { kind, children } => {
-                    let (place, map) = kind.child(at);
-                    let child = children[place].as_ref();
-                    let child = child.ok_or_else(|| unsupported("there is no surface"))?;
-                    let there = map.apply(at);
-                    let stays =
-                        child.node == node && (0..2).all(|k| there[k].to_bits() == at[k].to_bits());
-                    if stays && out.len() > width {
-                        return Err(unsupported("derivatives do not exist at a feature"));
+        let (width, blocks) = (cell.width, blocks(cell.width));
+        let sums = out.len() / width * blocks;
+        if scratch.sums.len() != sums {
+            memory::resize(&mut scratch.sums, sums)?;
+        }
+        let mut jacobian = start.jacobian;
+        let mut origin: &[Block] = &[];
+        match &self.nodes[start.node as usize] {
+            Node::Refused(why) => return Err(unsupported(why)),
+            Node::Split { .. } => {
+                let memo = &mut scratch.memo;
+                let root = if let Some(root) = memo.root(cell.corner) {
+                    root
+                } else {
+                    cell.gather(&mut scratch.points)?;
+                    memo.add_root(cell.corner, start.node, jacobian, &scratch.points, width)?
+                };
+                let (place, at) = self.descend(root, start.at, out.len() == width, width, memo)?;
+                let memo = &scratch.memo;
+                let points;
+                (points, origin) = memo.points(place, blocks);
+                jacobian = memo.place(place).jacobian;
+                match at {
+                    Some(at) => {
+                        let node = &self.nodes[memo.place(place).node as usize];
+                        let (taps, sums) = (&mut scratch.taps, &mut scratch.sums[..]);
+                        self.patch(node, at, points, blocks, taps, sums)?;
                     }
-                    child.points(&scratch.points, width, &mut scratch.next)?;
-                    std::mem::swap(&mut scratch.points, &mut scratch.next);
-                    let spread = scratch.recentre(width);
-                    let before = *first_spread.get_or_insert(spread);
-                    if stays && spread <= before * TOGETHER {
-                        return finish(jacobian, width, &scratch.origin, out);
-                    }
-                    jacobian = map.after(jacobian);
-                    (node, at) = (child.node, there);
+                    None => scratch.sums.fill(ZERO),
                 }
             }
+            node => {
+                cell.gather(&mut scratch.points)?;
+                let (taps, sums) = (&mut scratch.taps, &mut scratch.sums[..]);
+                self.patch(node, start.at, &scratch.points, blocks, taps, sums)?;
+            }
+        }
+        finish(jacobian, width, origin, &mut scratch.sums, out)
+    }
+
+    /// Down to a regular cell, and where in it; or to one whose points are one, without.
+    fn descend(
+        &self,
+        mut place: u32,
+        mut at: [f64; 2],
+        position_only: bool,
+        width: usize,
+        memo: &mut Memo,
+    ) -> Result<(u32, Option<[f64; 2]>)> {
+        for _ in 0..MOST_STEPS {
+            let here = memo.place(place);
+            let Node::Split { kind, children } = &self.nodes[here.node as usize] else {
+                return Ok((place, Some(at)));
+            };
+            let (turn, map) = kind.child(at);
+            let child = children[turn].as_ref();
+            let child = child.ok_or_else(|| unsupported("there is no surface"))?;
+            let there = map.apply(at);
+            let stays =
+                child.node == here.node && (0..2).all(|k| there[k].to_bits() == at[k].to_bits());
+            if stays && !position_only {
+                return Err(unsupported("derivatives do not exist at a feature"));
+            }
+            place = if let Some(known) = here.child(turn) {
+                known
+            } else {
+                let jacobian = map.after(here.jacobian);
+                memo.add_child(place, turn, child, jacobian, width)?
+            };
+            if stays && memo.place(place).is_within(TOGETHER) {
+                return Ok((place, None));
+            }
+            at = there;
         }
         Err(unsupported("points do not converge"))
+    }
+
+    /// A regular cell, or the reason why there is none.
+    fn patch(
+        &self,
+        node: &Node,
+        at: [f64; 2],
+        points: &[Block],
+        blocks: usize,
+        taps: &mut Vec<f64>,
+        sums: &mut [Block],
+    ) -> Result<()> {
+        match node {
+            Node::Grid(extent) => self.grid(*extent, at, points, blocks, taps, sums),
+            Node::Triangle => {
+                match sums.len() / blocks {
+                    1 => with_widest(Triangle::<1> { at, points, sums, blocks }),
+                    3 => with_widest(Triangle::<3> { at, points, sums, blocks }),
+                    _ => with_widest(Triangle::<6> { at, points, sums, blocks }),
+                }
+                Ok(())
+            }
+            Node::Refused(why) => Err(unsupported(why)),
+            Node::Split { .. } => {
+                Err(Error::new(ErrorKind::BrokenInvariant, "a way down ended too early"))
+            }
+        }
     }
 
     /// The tensor product over the points of a grid.
@@ -102,68 +175,77 @@ impl Patches<'_> {
         &self,
         extent: [[i32; 2]; 2],
         at: [f64; 2],
-        width: usize,
-        scratch: &mut Scratch,
-        out: &mut [f64],
+        points: &[Block],
+        blocks: usize,
+        taps: &mut Vec<f64>,
+        sums: &mut [Block],
     ) -> Result<()> {
         let univariate = self
             .univariate
             .ok_or_else(|| Error::new(ErrorKind::BrokenInvariant, "a grid without a mask"))?;
-        let records = out.len() / width;
-        let orders = PARTIALS[records - 1][1];
-        if orders > univariate.derivatives() {
+        let highest = PARTIALS[sums.len() / blocks - 1][1];
+        if highest > univariate.derivatives() {
             return Err(unsupported("the scheme has no such derivatives"));
         }
+        let orders = highest + 1;
+        let [lowest, last] = self.window;
+        let n = (last - lowest + 1) as usize;
+        if taps.len() != 2 * ORDERS * n {
+            memory::resize(taps, 2 * ORDERS * n)?;
+        }
         // Under dual schemes a cell is the second half of an interval about its vertex.
-        let is_dual = self.window[0] + self.window[1] == 0;
-        for axis in 0..2 {
+        let is_dual = lowest + last == 0;
+        for (axis, taps) in taps.chunks_exact_mut(ORDERS * n).enumerate() {
             let x = if is_dual { 0.5 + 0.5 * at[axis] } else { at[axis] };
+            let taps = &mut taps[..orders * n];
+            univariate.taps(x, orders, taps);
             let mut scale = 1.0;
-            for order in 0..=orders {
-                let taps = &mut scratch.taps[axis][order];
-                univariate.taps(x, order, taps);
-                fold(taps, self.window[0], extent[axis]);
-                for weight in taps.iter_mut() {
-                    *weight *= scale;
+            for weights in taps.chunks_exact_mut(n) {
+                if is_dual {
+                    for weight in weights.iter_mut() {
+                        *weight *= scale;
+                    }
+                    scale *= 0.5;
                 }
-                scale *= if is_dual { 0.5 } else { 1.0 };
+                if extent[axis] != self.window {
+                    fold(weights, lowest, extent[axis]);
+                }
             }
         }
-        for (by, sums) in PARTIALS.iter().zip(out.chunks_exact_mut(width)) {
-            let [along, across] = [&scratch.taps[0][by[0]], &scratch.taps[1][by[1]]];
-            scratch.weights.clear();
-            for y in across {
-                scratch.weights.extend(along.iter().map(|x| x * y));
+        let taps: [[&[f64]; ORDERS]; 2] = std::array::from_fn(|axis| {
+            let [first, last] = extent[axis].map(|x| (x - lowest) as usize);
+            std::array::from_fn(|order| &taps[(axis * ORDERS + order) * n..][first..=last])
+        });
+        with_widest(Tensor { taps, points, sums, blocks });
+        Ok(())
+    }
+}
+
+impl<T: Scalar> Cell<'_, T> {
+    /// The values of the control vertices in blocks.
+    fn gather(&self, points: &mut Vec<Block>) -> Result<()> {
+        let blocks = blocks(self.width);
+        points.clear();
+        memory::grow(points, self.vertices.len() * blocks)?;
+        for &v in self.vertices {
+            let record = &self.values[v as usize * self.width..][..self.width];
+            if let [x, y, z] = record {
+                points.push([x.to_f64(), y.to_f64(), z.to_f64(), 0.0]);
+                continue;
             }
-            sum(&scratch.weights, &scratch.points, sums);
+            for part in record.chunks(LANES) {
+                let mut block = ZERO;
+                block.iter_mut().zip(part).for_each(|(x, value)| *x = value.to_f64());
+                points.push(block);
+            }
         }
         Ok(())
     }
 }
 
-impl Scratch {
-    /// Makes the first point the origin of the others, so that their differences keep their
-    /// digits; returns the largest coordinate.
-    fn recentre(&mut self, width: usize) -> f64 {
-        let mut spread: f64 = 0.0;
-        let (first, rest) = self.points.split_at_mut(width);
-        for point in rest.chunks_exact_mut(width) {
-            for (x, origin) in point.iter_mut().zip(&*first) {
-                *x -= origin;
-                spread = spread.max(x.abs());
-            }
-        }
-        for (sum, x) in self.origin.iter_mut().zip(first) {
-            *sum += *x;
-            *x = 0.0;
-        }
-        spread
-    }
-}
-
 /// Turns weights of the points of a window into weights of those in a range, the others being
 /// p₋ⱼ = 2p₀ − pⱼ beyond either end.
-fn fold(taps: &mut Vec<f64>, lowest: i32, [first, last]: [i32; 2]) {
+fn fold(taps: &mut [f64], lowest: i32, [first, last]: [i32; 2]) {
     let place = |x: i32| (x - lowest) as usize;
     let highest = lowest + taps.len() as i32 - 1;
     // The farthest first: an image may lie beyond the other end, but less far.
@@ -179,42 +261,48 @@ fn fold(taps: &mut Vec<f64>, lowest: i32, [first, last]: [i32; 2]) {
             taps[place(2 * end - x)] -= weight;
         }
     }
-    taps.truncate(place(last) + 1);
-    taps.drain(..place(first));
 }
 
-/// Adds up points with weights.
-fn sum(weights: &[f64], points: &[f64], sums: &mut [f64]) {
-    for (weight, point) in weights.iter().zip(points.chunks_exact(sums.len())) {
-        sums.iter_mut().zip(point).for_each(|(sum, x)| *sum += weight * x);
+/// Derivatives by cell coordinates become those by the coordinates asked for, and records those
+/// of the caller.
+fn finish(
+    j: [[f64; 2]; 2],
+    width: usize,
+    origin: &[Block],
+    sums: &mut [Block],
+    out: &mut [f64],
+) -> Result<()> {
+    let blocks = blocks(width);
+    let records = sums.len() / blocks;
+    for (block, origin) in origin.iter().enumerate() {
+        sums[block] = plus(sums[block], 1.0, origin);
     }
-}
-
-fn triangle(at: [f64; 2], width: usize, points: &[f64], out: &mut [f64]) {
-    for (by, sums) in PARTIALS.iter().zip(out.chunks_exact_mut(width)) {
-        sum(&box_spline::taps(at[0], at[1], *by), points, sums);
-    }
-}
-
-/// Derivatives by cell coordinates become those by the coordinates asked for.
-fn finish(j: [[f64; 2]; 2], width: usize, origin: &[f64], out: &mut [f64]) -> Result<()> {
-    let records = out.len() / width;
-    for k in 0..width {
-        out[k] += origin[k];
-        if records >= 3 {
-            let [s, t] = [out[width + k], out[2 * width + k]];
-            out[width + k] = s * j[0][0] + t * j[1][0];
-            out[2 * width + k] = s * j[0][1] + t * j[1][1];
+    if j != IDENTITY.linear {
+        for block in 0..blocks {
+            let at = |record: usize| record * blocks + block;
+            for k in 0..LANES {
+                if records >= 3 {
+                    let [s, t] = [1, 2].map(|record| sums[at(record)][k]);
+                    sums[at(1)][k] = s * j[0][0] + t * j[1][0];
+                    sums[at(2)][k] = s * j[0][1] + t * j[1][1];
+                }
+                if records == 6 {
+                    let [ss, st, tt] = [3, 4, 5].map(|record| sums[at(record)][k]);
+                    let second = |a: usize, b: usize| {
+                        ss * j[0][a] * j[0][b]
+                            + st * (j[0][a] * j[1][b] + j[1][a] * j[0][b])
+                            + tt * j[1][a] * j[1][b]
+                    };
+                    sums[at(3)][k] = second(0, 0);
+                    sums[at(4)][k] = second(0, 1);
+                    sums[at(5)][k] = second(1, 1);
+                }
+            }
         }
-        if records == 6 {
-            let [ss, st, tt] = [3, 4, 5].map(|record| out[record * width + k]);
-            let second = |a: usize, b: usize| {
-                ss * j[0][a] * j[0][b]
-                    + st * (j[0][a] * j[1][b] + j[1][a] * j[0][b])
-                    + tt * j[1][a] * j[1][b]
-            };
-            (out[3 * width + k], out[4 * width + k], out[5 * width + k]) =
-                (second(0, 0), second(0, 1), second(1, 1));
+    }
+    for (record, out) in sums.chunks_exact(blocks).zip(out.chunks_exact_mut(width)) {
+        for (block, out) in record.iter().zip(out.chunks_mut(LANES)) {
+            out.iter_mut().zip(block).for_each(|(x, sum)| *x = *sum);
         }
     }
     if out.iter().all(|x| x.is_finite()) {

@@ -4,27 +4,39 @@
 //! |---|---|
 //! | `cell` | where a point lies, and in which child cell |
 //! | `univariate` | one axis of a tensor product |
+//! | `digits` | the same for masks that have no formula |
 //! | `box_spline` | a regular triangle |
 //! | `grid` | which cells are regular |
 //! | `vicinity` | what decides the surface of the others, with a name |
 //! | `nodes` | a finite graph of all surfaces |
+//! | `memo` | how far others have come on the way down |
+//! | `lanes` | sums of points |
 //! | `evaluation` | the way down |
 //! | `stencils` | the same for values that come again and again |
 
+#[allow(clippy::needless_range_loop, reason = "several arrays share an index")]
 mod box_spline;
 mod cell;
+mod digits;
+#[allow(clippy::needless_range_loop, reason = "several arrays share an index")]
 mod evaluation;
 mod grid;
+#[allow(clippy::needless_range_loop, reason = "several arrays share an index")]
+mod lanes;
+#[allow(clippy::needless_range_loop, reason = "several arrays share an index")]
+mod memo;
 mod nodes;
 mod stencils;
+#[allow(clippy::needless_range_loop, reason = "several arrays share an index")]
 mod univariate;
 mod vicinity;
 
 use crate::base::{Context, Element, Error, ErrorKind, NONE, Result, Scalar, memory};
 use crate::mesh::Mesh;
 use crate::scheme::{Method, Scheme};
-use cell::{Kind, Map};
-use evaluation::{PARTIALS, Patches, Scratch, Start};
+use cell::Kind;
+use cell::Map;
+use evaluation::{Cell, PARTIALS, Patches, Scratch, Start};
 use nodes::{Builder, Node};
 use std::sync::{Arc, Mutex, PoisonError};
 use univariate::Univariate;
@@ -226,8 +238,11 @@ impl Surface {
                 *first = Some((i, error));
             }
         };
+        // What a thread remembers is handed on to its next part.
+        let pool: Mutex<Vec<Scratch>> = Mutex::default();
+        let pool = || pool.lock().unwrap_or_else(PoisonError::into_inner);
         context.fill(out, record, |first, part| {
-            let mut scratch = Scratch::default();
+            let mut scratch = pool().pop().unwrap_or_default();
             let mut sums = match memory::zeroed(record) {
                 Ok(sums) => sums,
                 Err(error) => return fail(first, error),
@@ -237,6 +252,11 @@ impl Surface {
                     Ok(()) => out.iter_mut().zip(&sums).for_each(|(x, &y)| *x = T::from_f64(y)),
                     Err(error) => return fail(i, error),
                 }
+            }
+            let mut pool = pool();
+            match memory::extend(&mut pool, [scratch]) {
+                Ok(()) => {}
+                Err(error) => fail(first, error),
             }
         })?;
         let failed = failed.into_inner().unwrap_or_else(PoisonError::into_inner);
@@ -274,12 +294,14 @@ impl Surface {
         let (root, start) = self.start(sample).map_err(in_face)?;
         let points = self.cell_points(root);
         let n = points.len();
-        let mut scratch = Scratch::default();
-        memory::resize(&mut scratch.points, n * n)?;
-        (0..n).for_each(|i| scratch.points[i * n + i] = 1.0);
+        let mut identity: Vec<f64> = memory::zeroed(n * n)?;
+        (0..n).for_each(|i| identity[i * n + i] = 1.0);
+        let places: Vec<u32> = memory::collect(0..n as u32)?;
+        let cell = Cell { corner: root, vertices: &places, values: &identity, width: n };
         let records = derivatives.records();
         let mut rows: Vec<f64> = memory::zeroed(n * records)?;
-        self.patches().evaluate(start, n, &mut scratch, &mut rows).map_err(in_face)?;
+        let mut scratch = Scratch::default();
+        self.patches().evaluate(&cell, start, &mut scratch, &mut rows).map_err(in_face)?;
         let mut weights: Vec<SurfaceWeight> =
             memory::collect(points.iter().enumerate().map(|(i, &v)| {
                 let mut of = [0.0; 6];
@@ -308,13 +330,9 @@ impl Surface {
         sums: &mut [f64],
     ) -> Result<()> {
         let in_face = |error| named(error, sample);
-        let (root, start) = self.start(sample).map_err(in_face)?;
-        scratch.points.clear();
-        for &v in self.cell_points(root) {
-            let record = &values[v as usize * width..][..width];
-            memory::extend(&mut scratch.points, record.iter().map(|x| x.to_f64()))?;
-        }
-        self.patches().evaluate(start, width, scratch, sums).map_err(in_face)
+        let (corner, start) = self.start(sample).map_err(in_face)?;
+        let cell = Cell { corner, vertices: self.cell_points(corner), values, width };
+        self.patches().evaluate(&cell, start, scratch, sums).map_err(in_face)
     }
 
     fn patches(&self) -> Patches<'_> {

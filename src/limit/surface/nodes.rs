@@ -39,20 +39,15 @@ pub(super) struct Child {
 }
 
 impl Child {
-    /// The points of the child from those of the parent, `width` numbers each.
-    pub(super) fn points(&self, parent: &[f64], width: usize, points: &mut Vec<f64>) -> Result<()> {
-        points.clear();
-        memory::grow(points, (self.offsets.len() - 1) * width)?;
-        for range in self.offsets.windows(2) {
-            let at = points.len();
-            points.resize(at + width, 0.0);
-            let sums = &mut points[at..];
-            for &(from, weight) in &self.entries[range[0] as usize..range[1] as usize] {
-                let record = &parent[from as usize * width..][..width];
-                sums.iter_mut().zip(record).for_each(|(sum, x)| *sum += weight * x);
-            }
-        }
-        Ok(())
+    /// How many points it has.
+    pub(super) fn count(&self) -> usize {
+        self.offsets.len() - 1
+    }
+
+    /// For each of its points those of the parent with weights.
+    pub(super) fn rows(&self) -> impl Iterator<Item = &[(u32, f64)]> {
+        let row = |range: &[u32]| &self.entries[range[0] as usize..range[1] as usize];
+        self.offsets.windows(2).map(row)
     }
 }
 

@@ -8,19 +8,16 @@
 //! rows of sum 1, so that no rounding error grows. B-splines have a recurrence instead
 //! (de Boor 1972, uniform knots).
 
+use super::digits::Digits;
 use crate::base::{Error, ErrorKind, Result};
 use crate::scheme::{Method, Scheme};
 
 /// Derivatives that are evaluated.
 pub(super) const ORDERS: usize = 3;
-/// Digits of a number that are looked at: a change in the next moves nothing.
-const DIGITS: usize = 60;
 /// Steps after which a scheme has to have shown that it is smooth.
 const STEPS: u32 = 8;
-/// Rounds of a power iteration.
-const ROUNDS: usize = 2000;
 /// Sums of coefficients that are rounding errors.
-const ROUNDING: f64 = 1e-12;
+pub(super) const ROUNDING: f64 = 1e-12;
 
 /// A scheme along one axis of a regular grid.
 #[derive(Debug, Clone)]
@@ -77,105 +74,62 @@ impl Univariate {
         }
     }
 
-    /// Weights of the points of an interval for a derivative at x in [0, 1].
-    pub(super) fn taps(&self, x: f64, order: usize, taps: &mut Vec<f64>) {
-        taps.clear();
+    /// Weights of the points of an interval at x in [0, 1], for the position and then for as many
+    /// derivatives as `taps` has room for: `orders` times as many as there are points.
+    pub(super) fn taps(&self, x: f64, orders: usize, taps: &mut [f64]) {
+        let n = taps.len() / orders;
         match self {
-            Self::Spline(degree) if *degree < order => {
-                taps.resize(degree + 1, 0.0);
-                return;
+            // Loops of a known length are unrolled.
+            Self::Spline(2) => spline(2, x, &mut taps[..3 * orders]),
+            Self::Spline(3) => spline(3, x, &mut taps[..4 * orders]),
+            Self::Spline(4) => spline(4, x, &mut taps[..5 * orders]),
+            Self::Spline(degree) => spline(*degree, x, taps),
+            Self::Mask(of) => {
+                for (digits, taps) in of.iter().zip(taps.chunks_exact_mut(n)) {
+                    let (differences, _) = taps.split_at_mut(digits.points());
+                    digits.taps(x, differences);
+                }
             }
-            Self::Spline(degree) => spline(x, degree - order, taps),
-            Self::Mask(orders) => orders[order].taps(x, taps),
         }
-        for _ in 0..order {
-            // Weights of differences become weights of points.
-            taps.push(0.0);
-            for i in (0..taps.len()).rev() {
-                let before = if i > 0 { taps[i - 1] } else { 0.0 };
-                taps[i] = before - taps[i];
+        for (order, taps) in taps.chunks_exact_mut(n).enumerate() {
+            for len in n - order.min(n)..n {
+                differences(&mut taps[..=len]);
             }
         }
     }
 }
 
-/// The uniform B-splines of a degree on [0, 1].
-fn spline(x: f64, degree: usize, taps: &mut Vec<f64>) {
-    taps.push(1.0);
+/// Makes weights of differences weights of the points, one more.
+#[inline(always)]
+fn differences(taps: &mut [f64]) {
+    let last = taps.len() - 1;
+    taps[last] = 0.0;
+    for i in (0..taps.len()).rev() {
+        let before = if i > 0 { taps[i - 1] } else { 0.0 };
+        taps[i] = before - taps[i];
+    }
+}
+
+/// The uniform B-splines of a degree on [0, 1], and those of lower degrees, each in its own
+/// `degree` + 1 places.
+#[inline(always)]
+fn spline(degree: usize, x: f64, taps: &mut [f64]) {
+    let n = degree + 1;
+    let orders = taps.len() / n;
+    taps[0] = 1.0;
     for k in 1..=degree {
-        taps.push(0.0);
+        if degree + 1 - k < orders {
+            for j in 0..k {
+                taps[(degree + 1 - k) * n + j] = taps[j];
+            }
+        }
+        taps[k] = 0.0;
         let order = k as f64;
         for j in (0..=k).rev() {
             let before = if j > 0 { taps[j - 1] } else { 0.0 };
             let at = j as f64;
             taps[j] = ((x + order - at) * before + (at + 1.0 - x) * taps[j]) / order;
         }
-    }
-}
-
-/// A mask as the matrices of the two halves of an interval.
-#[derive(Debug, Clone)]
-pub(super) struct Digits {
-    points: usize,
-    /// By rows.
-    halves: [Vec<f64>; 2],
-    /// The limit at the start of the interval.
-    start: Vec<f64>,
-}
-
-impl Digits {
-    fn new(mask: &[f64]) -> Result<Self> {
-        let n = mask.len() - 1;
-        let half = |half: usize| {
-            let entry = |j: usize, i: usize| {
-                (j + half + n - 1).checked_sub(2 * i).and_then(|at| mask.get(at)).copied()
-            };
-            let row = |j: usize| (0..n).map(move |i| entry(j, i).unwrap_or(0.0));
-            (0..n).flat_map(row).collect::<Vec<f64>>()
-        };
-        let mut digits = Self { points: n, halves: [half(0), half(1)], start: Vec::new() };
-        let mut row = vec![1.0 / n as f64; n];
-        for _ in 0..ROUNDS {
-            row = digits.times(&row, 0);
-            let sum: f64 = row.iter().sum();
-            for weight in &mut row {
-                *weight /= sum;
-            }
-        }
-        let next = digits.times(&row, 0);
-        let moved = row.iter().zip(&next).fold(0.0, |most: f64, (a, b)| most.max((a - b).abs()));
-        if moved.is_nan() || moved > ROUNDING {
-            let message = "points of the scheme do not converge on regular grids";
-            return Err(Error::new(ErrorKind::Unsupported, message));
-        }
-        digits.start = row;
-        Ok(digits)
-    }
-
-    /// A row vector times the matrix of a half.
-    fn times(&self, row: &[f64], half: usize) -> Vec<f64> {
-        let mut product = vec![0.0; self.points];
-        for (factor, entries) in row.iter().zip(self.halves[half].chunks(self.points)) {
-            product.iter_mut().zip(entries).for_each(|(sum, entry)| *sum += factor * entry);
-        }
-        product
-    }
-
-    fn taps(&self, mut x: f64, taps: &mut Vec<f64>) {
-        let (mut digits, mut count) = ([0; DIGITS], 0);
-        while x > 0.0 && count < DIGITS {
-            x *= 2.0;
-            if x >= 1.0 {
-                digits[count] = 1;
-                x -= 1.0;
-            }
-            count += 1;
-        }
-        let mut row = self.start.clone();
-        for &digit in digits[..count].iter().rev() {
-            row = self.times(&row, digit);
-        }
-        taps.extend(row);
     }
 }
 

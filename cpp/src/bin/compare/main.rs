@@ -18,6 +18,7 @@ mod processors;
 mod regime;
 mod row;
 mod sides;
+mod surface;
 mod table;
 mod threads;
 mod turns;

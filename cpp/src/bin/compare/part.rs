@@ -3,7 +3,7 @@
 use crate::args::Args;
 use crate::regime::Regime;
 use crate::row::Row;
-use crate::{cases, linear, measure, orientation, per_frame, threads};
+use crate::{cases, linear, measure, orientation, per_frame, surface, threads};
 
 /// What is compared.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, clap::ValueEnum)]
@@ -12,6 +12,8 @@ pub enum Part {
     Refine,
     /// New positions on a topology that is ready, beside OpenSubdiv.
     PerFrame,
+    /// Points of the limit surface, beside OpenSubdiv.
+    Surface,
     /// Two threads beside one.
     Threads,
     /// Large results beside a small one.
@@ -25,14 +27,21 @@ pub type Emit<'a> = &'a mut dyn FnMut(Result<Row, String>);
 
 impl Part {
     /// All.
-    pub const ALL: [Self; 5] =
-        [Self::Refine, Self::PerFrame, Self::Threads, Self::Linear, Self::Orientation];
+    pub const ALL: [Self; 6] = [
+        Self::Refine,
+        Self::PerFrame,
+        Self::Surface,
+        Self::Threads,
+        Self::Linear,
+        Self::Orientation,
+    ];
 
     /// The name on the command line.
     pub fn name(self) -> &'static str {
         match self {
             Self::Refine => "refine",
             Self::PerFrame => "per-frame",
+            Self::Surface => "surface",
             Self::Threads => "threads",
             Self::Linear => "linear",
             Self::Orientation => "orientation",
@@ -43,7 +52,7 @@ impl Part {
     pub fn regimes(self) -> &'static [Regime] {
         match self {
             Self::Refine => &Regime::ALL,
-            Self::PerFrame | Self::Threads => &[Regime::ReUsed],
+            Self::PerFrame | Self::Surface | Self::Threads => &[Regime::ReUsed],
             Self::Linear => &[Regime::Default],
             Self::Orientation => &[Regime::Default, Regime::ReUsed],
         }
@@ -54,6 +63,7 @@ impl Part {
         match self {
             Self::Refine => refine(regime, args, emit),
             Self::PerFrame => per_frame::run(args.runs, emit),
+            Self::Surface => surface::run(args.runs, emit),
             Self::Threads => threads::run(args.runs, emit),
             Self::Linear => linear::run(args, emit),
             Self::Orientation => orientation::run(regime, args.runs, emit),

@@ -25,7 +25,7 @@ pub struct Row {
     pub threads: u32,
     /// Timed calls of either side.
     pub runs: u32,
-    /// Faces of the result, or vertices where `unit` says so.
+    /// Faces of the result, or vertices or samples where `unit` says so.
     pub faces: u64,
     /// Median.
     pub ours_ns_per_face: f64,
@@ -54,9 +54,9 @@ pub struct Row {
     /// Every face is the same cycle of the same vertices.
     pub same_faces: bool,
     /// What is computed: `refine` faces and positions, `positions` on a topology that is
-    /// ready, `stencil-create`, `stencil-apply`.
+    /// ready, `stencil-create`, `stencil-apply`, `surface` points, `surface-derivatives` too.
     pub task: String,
-    /// What times and bytes are per: `face` or `vertex`.
+    /// What times and bytes are per: `face`, `vertex` or `sample`.
     pub unit: String,
     /// Our call.
     pub ours_call: String,

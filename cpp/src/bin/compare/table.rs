@@ -51,6 +51,10 @@ fn about(part: Part) -> &'static str {
             "New positions on a topology that is ready, and making the table for it, per vertex;\n\
              bytes are those of the stencil tables\n"
         }
+        Part::Surface => {
+            "Points of the limit surface at 1 M random places, one thread, per sample; L is how deep\n\
+             OpenSubdiv isolates features before it approximates, which is all of diff\n"
+        }
         Part::Threads => {
             "carvel on two threads (ours) beside one (peer), wall time, re-used memory; the same bytes;\n\
              medians of turns of five calls in a row; cpu: processor time of two threads and of one;\n\
