@@ -4,6 +4,7 @@ mod derivatives;
 mod points;
 mod refusals;
 mod regular;
+mod tessellation;
 mod weights;
 
 #[path = "../kernel/support/bases.rs"]

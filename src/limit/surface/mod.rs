@@ -9,12 +9,14 @@
 //! | `vicinity` | what decides the surface of the others, with a name |
 //! | `nodes` | a finite graph of all surfaces |
 //! | `evaluation` | the way down |
+//! | `pieces` | what the surface is over a part of a face |
 
 mod box_spline;
 mod cell;
 mod evaluation;
 mod grid;
 mod nodes;
+mod pieces;
 mod univariate;
 mod vicinity;
 
@@ -24,6 +26,7 @@ use crate::scheme::{Method, Scheme};
 use cell::{Kind, Map};
 use evaluation::{PARTIALS, Patches, Scratch, Start};
 use nodes::{Builder, Node};
+pub(in crate::limit) use pieces::Piece;
 use std::sync::{Arc, Mutex, PoisonError};
 use univariate::Univariate;
 
