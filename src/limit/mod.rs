@@ -15,6 +15,7 @@
 //! | `rows` | the limits of all vertices, whatever is near them |
 //! | `limits` | positions, tangents, normals |
 //! | `surface` | any point, between vertices too |
+//! | `tessellate` | triangles within a tolerance of it |
 
 mod centres;
 mod feature;
@@ -25,6 +26,7 @@ mod part;
 mod rows;
 mod rule;
 mod surface;
+mod tessellate;
 mod weights;
 
 pub use feature::Feature;
@@ -33,3 +35,4 @@ pub use local::LocalMatrix;
 #[cfg(feature = "spectra")]
 pub(crate) use local::{Model, control_reach};
 pub use surface::{Derivatives, Sample, Surface, SurfaceWeight};
+pub use tessellate::{Fineness, Screen, TessellateOptions, Tessellation, tessellate};

@@ -21,5 +21,6 @@ mod primal;
 mod refined;
 mod spot;
 mod stencils;
+mod tessellated;
 mod texture;
 mod usage;

@@ -5,6 +5,7 @@ mod points;
 mod refusals;
 mod regular;
 mod stencils;
+mod tessellation;
 mod weights;
 
 #[path = "../kernel/support/bases.rs"]

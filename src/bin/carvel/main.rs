@@ -9,7 +9,7 @@
 //! | `console` | every line and the progress bar on the standard error stream |
 //! | `input`, `places` | what is read, and where results go |
 //! | `faults` | mistakes in a mesh, as lines of its file |
-//! | `subdivide`, `info`, `picture`, `stencils`, `analyse` | the commands |
+//! | `subdivide`, `tessellate`, `info`, `picture`, `stencils`, `analyse` | the commands |
 //! | `mask`, `catalogue` | masks of curves: a part of `analyse`, and what there is |
 //! | `curve` | polygons and grids: files, refinement |
 //! | `plot` | graphs, curves and maps as SVG and PNG |
@@ -53,6 +53,7 @@ mod session;
 mod stencils;
 mod subdivide;
 mod tags;
+mod tessellate;
 mod text;
 mod texture;
 mod topology;
@@ -85,6 +86,7 @@ fn main() -> ExitCode {
     let exit = match &cli.command {
         None => report::print(WELCOME),
         Some(Command::Subdivide(args)) => subdivide::run(args),
+        Some(Command::Tessellate(args)) => tessellate::run(args),
         Some(Command::Info(args)) => info::run(args),
         Some(Command::Preview(args)) => picture::run(args),
         Some(Command::Stencils(args)) => stencils::run(args),

@@ -3,7 +3,8 @@
 use crate::args::Chosen;
 use crate::exit::{Doing, Exit, Failure};
 use crate::memory;
-use crate::places::Job;
+use crate::places::{self, Job};
+use crate::session::Session;
 use carvel::{Error, Prediction};
 use serde_json::{Map, Value, json};
 use std::io::{Write, stdout};
@@ -27,7 +28,8 @@ pub struct Seconds {
 }
 
 impl Seconds {
-    fn json(&self) -> Value {
+    /// For programs.
+    pub fn json(&self) -> Value {
         json!({
             "read": self.read.as_secs_f64(),
             "build": self.build.as_secs_f64(),
@@ -110,8 +112,8 @@ pub struct Settings<'a> {
     pub precision: &'static str,
 }
 
-/// The report of a run on one input.
-pub fn subdivision(settings: &Settings, job: &Job, result: &Result<Done, Failure>) -> Value {
+/// What every report begins with.
+pub fn opening(job: &Job) -> Map<String, Value> {
     let mut report = Map::new();
     report.insert("input".to_owned(), json!(job.input.display().to_string()));
     report.insert("output".to_owned(), json!(job.output.display().to_string()));
@@ -119,6 +121,12 @@ pub fn subdivision(settings: &Settings, job: &Job, result: &Result<Done, Failure
     if let Some(picture) = &job.picture {
         report.insert("preview".to_owned(), json!(picture.display().to_string()));
     }
+    report
+}
+
+/// The report of a run on one input.
+pub fn subdivision(settings: &Settings, job: &Job, result: &Result<Done, Failure>) -> Value {
+    let mut report = opening(job);
     report.insert("scheme".to_owned(), scheme(settings.chosen));
     report.insert("levels".to_owned(), json!(settings.levels));
     report.insert("precision".to_owned(), json!(settings.precision));
@@ -168,6 +176,20 @@ pub fn error(failure: &Failure) -> Value {
 /// JSON as text.
 pub fn document(value: &Value) -> String {
     format!("{value:#}\n")
+}
+
+/// Prints the reports of all jobs where no mesh or picture went.
+pub fn print_all(session: &Session, jobs: &[Job], mut reports: Vec<Value>) -> Result<(), Failure> {
+    let whole = if jobs.len() == 1 { reports.remove(0) } else { Value::Array(reports) };
+    let document = document(&whole);
+    let taken = |job: &Job| {
+        places::is_stream(&job.output) || job.picture.as_deref().is_some_and(places::is_stream)
+    };
+    if jobs.iter().any(taken) {
+        session.console.line(document.trim_end());
+        return Ok(());
+    }
+    print(&document).map(drop)
 }
 
 /// Prints text on the standard output. A reader that went away is no error.

@@ -74,7 +74,9 @@ impl Run<'_> {
             }
         }
         self.session.console.clear();
-        self.print(jobs, reports)?;
+        if self.args.json {
+            report::print_all(self.session, jobs, reports)?;
+        }
         Ok(exit)
     }
 
@@ -86,23 +88,6 @@ impl Run<'_> {
             precision: self.args.precision.name(),
         };
         report::subdivision(&settings, job, result)
-    }
-
-    /// Prints the reports where no mesh or picture went.
-    fn print(&self, jobs: &[Job], mut reports: Vec<Value>) -> Result<(), Failure> {
-        if !self.args.json {
-            return Ok(());
-        }
-        let whole = if jobs.len() == 1 { reports.remove(0) } else { Value::Array(reports) };
-        let document = report::document(&whole);
-        let taken = |job: &Job| {
-            places::is_stream(&job.output) || job.picture.as_deref().is_some_and(places::is_stream)
-        };
-        if jobs.iter().any(taken) {
-            self.session.console.line(document.trim_end());
-            return Ok(());
-        }
-        report::print(&document).map(drop)
     }
 
     /// Does one job.
@@ -265,7 +250,7 @@ impl Run<'_> {
 }
 
 /// What the policy did with a mesh that is not manifold.
-fn not_manifold(file: &MeshFile, built: &Built) -> Option<String> {
+pub fn not_manifold(file: &MeshFile, built: &Built) -> Option<String> {
     if !built.mesh.is_manifold() {
         return Some("not manifold, kept as it is: infinitely sharp there".to_owned());
     }
@@ -284,7 +269,7 @@ fn left_out(holes: u64) -> Option<String> {
 }
 
 /// Creates the directories of a job.
-fn create(job: &Job) -> Result<(), Failure> {
+pub fn create(job: &Job) -> Result<(), Failure> {
     job.directories.iter().try_for_each(|directory| {
         fs::create_dir_all(directory).map_err(|e| {
             let name = crate::text::one_line(&directory.display().to_string());
@@ -294,7 +279,7 @@ fn create(job: &Job) -> Result<(), Failure> {
 }
 
 /// Adds the time that work takes.
-fn timed<R>(sum: &mut Duration, work: impl FnOnce() -> R) -> R {
+pub fn timed<R>(sum: &mut Duration, work: impl FnOnce() -> R) -> R {
     let start = Instant::now();
     let result = work();
     *sum += start.elapsed();

@@ -13,6 +13,7 @@
 //! | `lanes` | sums of points |
 //! | `evaluation` | the way down |
 //! | `stencils` | the same for values that come again and again |
+//! | `pieces` | what the surface is over a part of a face |
 
 #[allow(clippy::needless_range_loop, reason = "several arrays share an index")]
 mod box_spline;
@@ -26,6 +27,7 @@ mod lanes;
 #[allow(clippy::needless_range_loop, reason = "several arrays share an index")]
 mod memo;
 mod nodes;
+mod pieces;
 mod stencils;
 #[allow(clippy::needless_range_loop, reason = "several arrays share an index")]
 mod univariate;
@@ -34,10 +36,10 @@ mod vicinity;
 use crate::base::{Context, Element, Error, ErrorKind, NONE, Result, Scalar, memory};
 use crate::mesh::Mesh;
 use crate::scheme::{Method, Scheme};
-use cell::Kind;
-use cell::Map;
+use cell::{Kind, Map};
 use evaluation::{Cell, PARTIALS, Patches, Scratch, Start};
 use nodes::{Builder, Node};
+pub(in crate::limit) use pieces::Piece;
 use std::sync::{Arc, Mutex, PoisonError};
 use univariate::Univariate;
 

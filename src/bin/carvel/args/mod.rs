@@ -8,6 +8,7 @@ mod names;
 mod owners;
 mod scheme;
 mod stencils;
+mod tessellate;
 mod view;
 
 pub use analyse::AnalyseArgs;
@@ -16,6 +17,7 @@ pub use curve::{CurveArgs, CurveFormat, CurveNumbers, PolygonFormat};
 pub use mask::{MaskArgs, MaskSource, check_name};
 pub use scheme::{Chosen, SchemeArgs};
 pub use stencils::{MatrixFormat, StencilArgs};
+pub use tessellate::TessellateArgs;
 pub use view::ViewArgs;
 
 use crate::{exit, memory};
@@ -39,6 +41,8 @@ pub struct Cli {
 pub enum Command {
     /// Refine meshes by a subdivision scheme, or convert them (--levels 0).
     Subdivide(Box<SubdivideArgs>),
+    /// Cut limit surfaces into triangles within a tolerance, or short on a screen.
+    Tessellate(Box<TessellateArgs>),
     /// Describe meshes: counts, topology, attributes, defects.
     Info(InfoArgs),
     /// Draw meshes as PNG pictures; several side by side, by one camera.

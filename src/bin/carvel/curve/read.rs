@@ -74,7 +74,7 @@ fn bytes(session: &Session, path: &Path, name: &str) -> carvel::Result<Vec<u8>> 
         (Box::new(stdin().lock()), None)
     } else {
         let file = File::open(path).map_err(failed)?;
-        let size = file.metadata().ok().filter(|m| m.is_file()).map(|m| m.len());
+        let size = file.metadata().ok().filter(std::fs::Metadata::is_file).map(|m| m.len());
         (Box::new(file), size)
     };
     let go_on = session.bytes_hook();

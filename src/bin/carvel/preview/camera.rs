@@ -102,6 +102,28 @@ impl Camera {
         Point { x: fixed(q.x), y: fixed(q.y), inverse_depth: 1.0 / (EYE - p.z) }
     }
 
+    /// By rows, the matrix from (x, y, z, 1) to clip coordinates: from −w to w across the picture.
+    pub fn matrix(&self, view: &View) -> [[f64; 4]; 4] {
+        let Sphere { unit, center, radius } = self.sphere;
+        let [x, y, z] = [0, 1, 2].map(|k| {
+            let row = self.rotation.row(k).as_dvec3();
+            let scaled = row / (unit * radius);
+            [scaled.x, scaled.y, scaled.z, -row.dot(center) / radius]
+        });
+        let w = [-z[0], -z[1], -z[2], f64::from(EYE) - z[3]];
+        let samples = f64::from(view.supersample);
+        let zoom = f64::from(self.zoom);
+        // On a side of n samples sample i lies at 2i/n − 1.
+        let across = |along: [f64; 4], pixels: u32, origin: f32, sign: f64| {
+            let half = f64::from(pixels) * samples / 2.0;
+            let shift = (f64::from(origin) - half) / half;
+            [0, 1, 2, 3].map(|k| zoom / half * along[k] + sign * shift * w[k])
+        };
+        let right = across(x, view.width, self.origin.x, 1.0);
+        let up = across(y, view.height, self.origin.y, -1.0);
+        [right, up, [0.0; 4], w]
+    }
+
     /// The size of a sample at a depth, in view coordinates.
     pub fn sample_size(&self, inverse_depth: f32) -> f32 {
         1.0 / (self.zoom * inverse_depth)

@@ -79,6 +79,21 @@ pub fn render_alike(meshes: &[Polygons<'_>], view: &View) -> Result<Vec<Image>> 
     checked.iter().map(|mesh| draw(mesh, &camera, view, BAND_SAMPLES)).collect()
 }
 
+/// By rows, the matrix from (x, y, z, 1) to clip coordinates of the camera with which [`render`]
+/// draws a mesh: x to the right, y upwards, from −w to w across the picture, and z always 0.
+///
+/// # Errors
+/// As for [`render`].
+pub fn matrix(
+    positions: &[[f64; 3]],
+    face_sizes: &[u32],
+    face_vertices: &[u32],
+    view: &View,
+) -> Result<[[f64; 4]; 4]> {
+    let polygons = Polygons { positions, face_sizes, face_vertices };
+    Ok(Camera::fit(&[polygons.check()?], view)?.matrix(view))
+}
+
 /// Draws a checked mesh in bands of about so many samples.
 fn draw(mesh: &Checked<'_>, camera: &Camera, view: &View, band_samples: usize) -> Result<Image> {
     let scene = Scene::new(mesh, camera, view.shading);
