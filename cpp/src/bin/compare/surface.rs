@@ -93,17 +93,18 @@ fn rows<T: Scalar>(
 /// Faces at random and points in them, always the same.
 fn places(control: &Control, mesh: &Mesh, surface: &Surface, faces: &[u32]) -> Vec<Place> {
     let mut state = 1_u64;
-    let mut number = || {
+    // 24 bits are numbers of single precision: both sides evaluate the same points.
+    let mut bits = || {
         state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963);
-        // A number of single precision, so that both sides evaluate the same points.
-        (state >> 40) as f64 / f64::from(1 << 24)
+        state >> 40
     };
     let triangles = control.is_triangles() && surface.sectors(0) == 1;
     let mut place = || {
-        let face = (number() * mesh.faces() as f64) as u32;
+        let mut below = |n: usize| ((bits() * n as u64) >> 24) as u32;
+        let face = below(mesh.faces());
         let sectors = surface.sectors(faces[face as usize] as usize);
-        let sector = (number() * sectors as f64) as u32;
-        let [mut u, mut v] = [number(), number()];
+        let sector = below(sectors);
+        let [mut u, mut v] = [bits(), bits()].map(|bits| bits as f64 / f64::from(1 << 24));
         if triangles && u + v > 1.0 {
             [u, v] = [1.0 - u, 1.0 - v];
         }
