@@ -111,6 +111,10 @@ static void check_limits(void)
     static const double tangents[] = {3, -3, 3, 3, -3, 3, -3, -3};
     carvel_mask *cubic = mask_of("b-spline:3", 0), *linear = mask_of("[1,2,1]/2", 0);
     const carvel_const_values_f64 from = from64(square, 4, 2);
+    static const float line[] = {2, 7, -1};
+    float kept[3];
+    const carvel_const_values_f32 single = {line, 3, 1, 0};
+    const carvel_values_f32 limits = {kept, 3, 1, 0};
     carvel_polygon_counts counts;
     double out[8];
     carvel_values_f64 to = to64(out, 4, 2);
@@ -126,6 +130,8 @@ static void check_limits(void)
         CHECK(fabs(out[i] - points[i]) < 1e-14);
     CHECK_OK(carvel_mask_limit_f64(cubic, NULL, CARVEL_ENDS_CLOSED, 1, &from, &to, failure));
     CHECK_BYTES(tangents, out, sizeof tangents);
+    CHECK_OK(carvel_mask_limit_f32(linear, NULL, CARVEL_ENDS_KEPT, 0, &single, &limits, failure));
+    CHECK_BYTES(line, kept, sizeof line);
     CHECK_STATUS(CARVEL_STATUS_UNSUPPORTED,
                  carvel_mask_limit_f64(linear, NULL, CARVEL_ENDS_CLOSED, 1, &from, &to, failure));
     CHECK_STATUS(CARVEL_STATUS_UNSUPPORTED,
