@@ -1709,9 +1709,10 @@ CARVEL_API carvel_status carvel_surface_sectors(const carvel_surface *surface, u
  * LENGTH_MISMATCH, TOO_LARGE, MEMORY_CEILING, OUT_OF_RESOURCES, CANCELLED;
  * PARAMETER_OUT_OF_RANGE for a width or derivatives that are none. For the first sample
  * concerned, naming its face: PARAMETER_OUT_OF_RANGE for a face, sector or coordinates;
- * NOT_FINITE for a value that it depends on; UNSUPPORTED in a hole, where the surface of a
- * dual scheme ends before the boundary or is not regular beside it, for derivatives that the
- * scheme does not have, or exactly at an extraordinary vertex or an irregular boundary. */
+ * NOT_FINITE for a value that it depends on, or for one that does not fit `out`;
+ * UNSUPPORTED in a hole, where the surface of a dual scheme ends before the boundary or is
+ * not regular beside it, for derivatives that the scheme does not have, or exactly at an
+ * extraordinary vertex or an irregular boundary. */
 CARVEL_API carvel_status carvel_surface_evaluate_f32(const carvel_surface *surface,
                                                      const carvel_context *context,
                                                      const carvel_sample *samples,

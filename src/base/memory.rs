@@ -83,11 +83,11 @@ pub(crate) fn copied<T: Copy>(slice: &[T]) -> Result<Vec<T>> {
     Ok(list)
 }
 
-/// An array without much room to spare: a copy, if there was much. To give memory back may need
-/// some, and `shrink_to_fit` aborts where there is none.
-pub(crate) fn fitted<T: Copy>(list: Vec<T>) -> Result<Vec<T>> {
+/// An array without much room to spare: a copy, if there was much and memory for one. To give
+/// memory back may need some, and `shrink_to_fit` aborts where there is none.
+pub(crate) fn fitted<T: Copy>(list: Vec<T>) -> Vec<T> {
     let spare = list.capacity() - list.len();
-    if spare > list.len() / 4 { copied(&list) } else { Ok(list) }
+    if spare > list.len() / 4 { copied(&list).unwrap_or(list) } else { list }
 }
 
 /// Makes an array exactly `len` long, keeping its memory if it is large enough.

@@ -123,13 +123,13 @@ impl<'a> Patterns<'a> {
                 step.add_row(vertex, &mut dense)?;
             }
         }
-        with_widest(Composed {
+        Ok(with_widest(Composed {
             children: &children,
             in_child: &block.in_child,
             dense: &dense,
             places: ring.vertices.len(),
             made: PlacedWriter::new(block.slots, ring.vertices.len())?,
-        })
+        }))
     }
 }
 
@@ -163,7 +163,7 @@ struct Composed<'s, T> {
 }
 
 impl<T: Scalar> InnerLoop for Composed<'_, T> {
-    type Output = Result<PlacedRows<T>>;
+    type Output = PlacedRows<T>;
 
     #[inline(always)]
     fn run(self) -> Self::Output {
@@ -179,7 +179,7 @@ impl<T: Scalar> InnerLoop for Composed<'_, T> {
 
 impl<T: Scalar> Composed<'_, T> {
     #[inline(always)]
-    fn rows<const N: usize>(mut self) -> Result<PlacedRows<T>> {
+    fn rows<const N: usize>(mut self) -> PlacedRows<T> {
         let step = self.dense.as_chunks::<N>().0;
         for &(child, slot) in self.in_child {
             let (rows, start) = self.children[child as usize];

@@ -66,7 +66,7 @@ impl<'a> StepRows<'a> {
             self.make(&child)?;
             rows.push(&self.sums[..places]);
         }
-        rows.finish()
+        Ok(rows.finish())
     }
 
     /// Finds out how the child mesh calls the vertices on edges.

@@ -91,7 +91,7 @@ pub(crate) fn assemble<T: Scalar, S: Send>(
             writer.clear();
         }
     }
-    table.finish(columns as u32)
+    Ok(table.finish(columns as u32))
 }
 
 /// A table that rows are put behind.
@@ -135,8 +135,8 @@ impl<T: Scalar> Growing<T> {
         memory::grow(&mut self.weights, more)
     }
 
-    fn finish(self, columns: u32) -> Result<StencilTable<T>> {
-        let (indices, weights) = (memory::fitted(self.indices)?, memory::fitted(self.weights)?);
-        Ok(StencilTable::from_parts(columns, self.offsets, indices, weights))
+    fn finish(self, columns: u32) -> StencilTable<T> {
+        let (indices, weights) = (memory::fitted(self.indices), memory::fitted(self.weights));
+        StencilTable::from_parts(columns, self.offsets, indices, weights)
     }
 }

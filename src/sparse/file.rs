@@ -179,7 +179,7 @@ impl<R: Read> Input<R> {
             memory::grow(&mut list, bytes / N)?;
             list.extend(block.as_chunks::<N>().0.iter().map(|&bytes| number(bytes)));
         }
-        memory::fitted(list)
+        Ok(memory::fitted(list))
     }
 
     /// The end: a checksum that fits, and nothing more.

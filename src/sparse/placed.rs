@@ -98,14 +98,14 @@ impl<T: Scalar> PlacedWriter<T> {
     }
 
     /// The rows.
-    pub(crate) fn finish(mut self) -> Result<PlacedRows<T>> {
+    pub(crate) fn finish(mut self) -> PlacedRows<T> {
         let PlacedRows { places, weights, .. } = &mut self.rows;
         places.truncate(self.len);
         weights.truncate(self.len);
         // Most of the room was for rows without zeros.
-        *places = memory::fitted(std::mem::take(places))?;
-        *weights = memory::fitted(std::mem::take(weights))?;
-        Ok(self.rows)
+        *places = memory::fitted(std::mem::take(places));
+        *weights = memory::fitted(std::mem::take(weights));
+        self.rows
     }
 }
 

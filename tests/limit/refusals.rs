@@ -66,15 +66,41 @@ fn holes_and_ends_have_no_surface() {
     let surface = open.surface(&ends);
     let mut out = vec![0.0; WIDTH];
     let context = Context::serial();
-    let done = surface.evaluate(
-        &context,
-        &[at(0, 0, [0.1; 2])],
-        &open.values,
-        WIDTH,
-        Derivatives::None,
-        &mut out,
-    );
+    let sample = at(0, 0, [0.1; 2]);
+    let weights = surface.weights(&sample, Derivatives::None);
+    assert_eq!(weights.expect_err("an error").kind(), ErrorKind::Unsupported);
+    let done =
+        surface.evaluate(&context, &[sample], &open.values, WIDTH, Derivatives::None, &mut out);
     assert_eq!(done.expect_err("an error").kind(), ErrorKind::Unsupported);
+}
+
+/// Values that fit, but whose derivative does not.
+#[test]
+fn results_beyond_single_precision_are_refused() {
+    let shape = Shape::new(&bases::grid(4, 4));
+    let surface = shape.surface(&Scheme::catmull_clark());
+    // A step in the middle of each face of one row.
+    assert_eq!(shape.mesh.vertices(), 25);
+    let side = |v: usize| if v % 5 < 2 { -3e38_f32 } else { 3e38 };
+    let values: Vec<f32> = (0..25).map(side).collect();
+    let context = Context::serial();
+    let mut refused = 0;
+    for face in 0..16 {
+        let samples = [at(face, 0, [0.5; 2])];
+        let evaluate = |derivatives, out: &mut [f32]| {
+            surface.evaluate(&context, &samples, &values, 1, derivatives, out).map_err(|e| e.kind())
+        };
+        assert_eq!(evaluate(Derivatives::None, &mut [0.0]), Ok(()));
+        let mut out = [0.0; 3];
+        match evaluate(Derivatives::First, &mut out) {
+            Ok(()) => assert!(out.iter().all(|x| x.is_finite())),
+            Err(kind) => {
+                assert_eq!(kind, ErrorKind::NotFinite);
+                refused += 1;
+            }
+        }
+    }
+    assert_eq!(refused, 4);
 }
 
 #[test]

@@ -66,6 +66,10 @@ impl Patches<'_> {
         scratch: &mut Scratch,
         out: &mut [f64],
     ) -> Result<()> {
+        // It has no points, of which weights are made as many numbers wide.
+        if let Node::Refused(why) = &self.nodes[start.node as usize] {
+            return Err(unsupported(why));
+        }
         let (width, blocks) = (cell.width, blocks(cell.width));
         let sums = out.len() / width * blocks;
         if scratch.sums.len() != sums {
@@ -74,7 +78,6 @@ impl Patches<'_> {
         let mut jacobian = start.jacobian;
         let mut origin: &[Block] = &[];
         match &self.nodes[start.node as usize] {
-            Node::Refused(why) => return Err(unsupported(why)),
             Node::Split { .. } => {
                 let memo = &mut scratch.memo;
                 let root = if let Some(root) = memo.root(cell.corner) {
@@ -308,5 +311,9 @@ fn finish(
     if out.iter().all(|x| x.is_finite()) {
         return Ok(());
     }
-    Err(Error::new(ErrorKind::NotFinite, "a value there, or a derivative, is not finite"))
+    Err(not_finite())
+}
+
+pub(super) fn not_finite() -> Error {
+    Error::new(ErrorKind::NotFinite, "a value there, or a derivative, is not finite")
 }

@@ -214,7 +214,8 @@ impl Surface {
     /// [`ErrorKind::LengthMismatch`] for slices of the wrong length. For the first sample
     /// concerned, naming its face: [`ErrorKind::ParameterOutOfRange`] for a face, sector or
     /// coordinates out of range or NaN; [`ErrorKind::NotFinite`] for a value that the sample
-    /// depends on; [`ErrorKind::Unsupported`] in a hole, where the surface of a dual scheme ends
+    /// depends on, and for one that the result's number type does not hold;
+    /// [`ErrorKind::Unsupported`] in a hole, where the surface of a dual scheme ends
     /// before the boundary or is not regular beside it, for derivatives that the scheme does not
     /// have, or exactly at an extraordinary vertex or an irregular boundary.
     /// [`ErrorKind::OutOfResources`], [`ErrorKind::Cancelled`]. What is in `out` then is
@@ -251,7 +252,12 @@ impl Surface {
             };
             for (i, out) in (first..).zip(part.chunks_exact_mut(record)) {
                 match self.one(&samples[i], values, width, &mut scratch, &mut sums) {
-                    Ok(()) => out.iter_mut().zip(&sums).for_each(|(x, &y)| *x = T::from_f64(y)),
+                    Ok(()) => {
+                        out.iter_mut().zip(&sums).for_each(|(x, &y)| *x = T::from_f64(y));
+                        if !out.iter().all(|x| x.to_f64().is_finite()) {
+                            return fail(i, named(evaluation::not_finite(), &samples[i]));
+                        }
+                    }
                     Err(error) => return fail(i, error),
                 }
             }
