@@ -32,6 +32,7 @@ impl MaskSource<'_> {
             Self::Coefficients { text, arity, offset } => Mask::parse(text, arity, offset),
             Self::Named(name) => {
                 check_name(name)?;
+                check_mask(name)?;
                 catalogue::mask(name)
             }
         };
@@ -49,15 +50,34 @@ impl MaskSource<'_> {
                 "--range needs a name of the catalogue, such as four-point",
             ));
         };
-        open_family(name, parameter).map_err(|e| Failure::from_error(&e, Doing::Asking))
+        check_name(name)?;
+        check_mask(name)?;
+        let asking = |e: carvel::Error| Failure::from_error(&e, Doing::Asking);
+        let (family, parameters) = catalogue::parse(name).map_err(asking)?;
+        let Some(index) = family.parameters.iter().position(|p| p.name == parameter) else {
+            let names: Vec<_> = family.parameters.iter().map(|p| p.name).collect();
+            let there = if names.is_empty() { "none".to_owned() } else { names.join(", ") };
+            let parameter = crate::text::one_line(parameter);
+            let name = family.name;
+            let message = format!("{name} has no parameter '{parameter}'; its parameters: {there}");
+            return Err(Failure::usage(message));
+        };
+        if !family.parameters[index].is_free {
+            let message =
+                format!("{parameter} of {} counts something: --range has no use", family.name);
+            return Err(Failure::usage(message));
+        }
+        AffineFamily::of(family, &parameters, index).map_err(asking)
     }
 }
 
-fn open_family(name: &str, parameter: &str) -> carvel::Result<AffineFamily> {
-    let (family, parameters) = catalogue::parse(name)?;
-    let index = family.parameters.iter().position(|p| p.name == parameter);
-    // One that does not exist is refused as one that is no free one.
-    AffineFamily::of(family, &parameters, index.unwrap_or(usize::MAX))
+/// Refuses the name of a scheme whose rules change.
+fn check_mask(text: &str) -> Result<(), Failure> {
+    let Some(found) = NON_STATIONARY.iter().find(|family| family.name == family_name(text)) else {
+        return Ok(());
+    };
+    let (name, limit) = (found.name, found.limit);
+    Err(Failure::usage(format!("the rules of {name} change: it has no mask; {limit} is near it")))
 }
 
 /// True if a text names a family of the catalogue, with or without parameters.
