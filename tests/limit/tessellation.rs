@@ -184,6 +184,27 @@ fn no_sample_is_farther_than_the_tolerance() {
     check_distance(&smooth()[1], 1e-3, 32);
 }
 
+/// By powers of two every number scales exactly, far beyond where squares leave the range.
+#[test]
+fn size_does_not_matter() {
+    let shape = Shape::new(&bases::cube());
+    let surface = Surface::new(&Context::serial(), &shape.mesh, &Scheme::catmull_clark()).unwrap();
+    let of_size = |size: f64| {
+        let positions: Vec<f64> = positions(&shape).iter().map(|x| x * size).collect();
+        tessellate(&Context::serial(), &surface, &positions, &chord(0.1 * size)).unwrap()
+    };
+    let usual = of_size(1.0);
+    assert!(usual.measure > 0.0);
+    for size in [2.0_f64.powi(-560), 2.0_f64.powi(600), 2.0_f64.powi(1022)] {
+        let scaled = of_size(size);
+        assert_eq!(scaled.triangles, usual.triangles, "{size}");
+        assert_eq!(scaled.normals, usual.normals, "{size}");
+        assert_eq!(scaled.measure, usual.measure * size);
+        let points = usual.positions.iter().map(|p| p.map(|x| x * size));
+        assert!(points.eq(scaled.positions), "{size}");
+    }
+}
+
 /// Tens of thousands of triangles.
 #[test]
 #[ignore = "takes minutes without optimisation"]

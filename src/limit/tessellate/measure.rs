@@ -4,10 +4,12 @@
 //! to the corners. The linear interpolant is off by ½ Σ λᵢ |D²f(dᵢ, dᵢ)| at most, each at some
 //! point of the cell. The dᵢ have mean 0 and lie in a box of sides w and h, so that Σ λᵢ du² is w²/4
 //! at most, and the sum (w² |f_uu| + 2wh |f_uv| + h² |f_vv|)/8, whatever triangles of a square it is
-//! (Filip, Magedson and Markot 1986 for two right ones). Of a triangle with sides eᵢⱼ the sum is
-//! ½ Σ λᵢ λⱼ |D²f(eᵢⱼ, eᵢⱼ)|, at most a sixth of the largest. The sides of the triangles that a
-//! cell is cut into are its own, halves of them, lines between their middles, and medians, for which
-//! 5/4 of the largest is a bound: 5/24 of it in all.
+//! (Filip, Magedson and Markot 1986 for two right ones). For a triangle let M bound |D²f(e, e)| for
+//! its sides e: the interpolant is off by Mλ₁(1 − λ₁)/2 at most where the parallel to a side through
+//! a point meets the others, and by Mλ₂λ₃/2 more along it, in all by
+//! M(λ₁λ₂ + λ₂λ₃ + λ₃λ₁)/2, a sixth of M at most. The sides of the triangles that a cell is cut
+//! into are its own, halves of them, lines between their middles, and medians, for which 5/4 of
+//! the largest is a bound: 5/24 of it in all.
 //!
 //! Hull: a surface lies in the hull of its coefficients, and distance from a convex set is largest
 //! at one of them. So flat cells are found in which points only move within the plane.

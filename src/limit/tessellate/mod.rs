@@ -200,9 +200,11 @@ pub fn tessellate<T: Scalar>(
 ) -> Result<Tessellation> {
     options.check()?;
     context.report(0.0)?;
-    let positions = checked(surface, positions)?;
+    let mut positions = checked(surface, positions)?;
+    let scale = exponent(&positions);
+    positions.iter_mut().for_each(|x| *x = libm::scalbn(*x, -scale));
     let roots = roots(surface)?;
-    let goal = goal(options);
+    let goal = goal(options, scale);
     let Leaves { cells, largest, coarse, missing } =
         split::split(context, surface, &positions, &roots, &goal)?;
     let net = Net::new(context, surface.mesh(), &roots, cells)?;
@@ -218,7 +220,18 @@ pub fn tessellate<T: Scalar>(
     context.report(0.9)?;
     plan.triangles(context, &mut made)?;
     normals::settle(&mut made)?;
+    made.positions.as_flattened_mut().iter_mut().for_each(|x| *x = libm::scalbn(*x, scale));
+    if matches!(goal.measure, Measure::Chord) {
+        made.measure = libm::scalbn(made.measure, scale);
+    }
     Ok(made)
+}
+
+/// The power of two by which coordinates are divided, exactly, so that squares of their differences
+/// stay in range.
+fn exponent(positions: &[f64]) -> i32 {
+    let largest = positions.iter().fold(0.0, |largest: f64, x| largest.max(x.abs()));
+    if largest > 0.0 { libm::ilogb(largest) } else { 0 }
 }
 
 /// Positions in double precision.
@@ -244,10 +257,13 @@ fn roots(surface: &Surface) -> Result<Vec<Root>> {
     memory::collect(faces.flat_map(sectors).map(|(face, s)| Root::new(surface, face, s)))
 }
 
-fn goal(options: &TessellateOptions) -> Goal {
+/// What is asked for of coordinates divided by a power of two.
+fn goal(options: &TessellateOptions, scale: i32) -> Goal {
     let (measure, limit) = match options.fineness {
-        Fineness::Chord(tolerance) => (Measure::Chord, tolerance),
-        Fineness::Pixels(pixels, Screen { matrix, viewport }) => {
+        Fineness::Chord(tolerance) => (Measure::Chord, libm::scalbn(tolerance, -scale)),
+        Fineness::Pixels(pixels, Screen { mut matrix, viewport }) => {
+            let of_points = matrix.iter_mut().flat_map(|row| &mut row[..3]);
+            of_points.for_each(|x| *x = libm::scalbn(*x, scale));
             let half = viewport.map(|side| side / 2.0);
             (Measure::Screen { matrix, half }, pixels)
         }

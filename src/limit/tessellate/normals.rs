@@ -63,8 +63,8 @@ impl Evaluator<'_> {
                 }
                 Ok(())
             }
-            // At least one has no derivatives.
-            Err(error) if error.kind() == ErrorKind::Unsupported => {
+            // At least one has no derivatives, or none that fit.
+            Err(error) if matches!(error.kind(), ErrorKind::Unsupported | ErrorKind::NotFinite) => {
                 let mut each = samples.iter().zip(places);
                 each.try_for_each(|(sample, place)| self.one(sample, place))
             }
