@@ -38,6 +38,10 @@ fn the_report_says_what_was_reached() {
     assert!(number("bound") <= number("tolerance") && number("tolerance") > 0.0, "{report}");
     assert_eq!(number("triangles"), bench.mesh("t.obj").face_sizes.len() as f64);
     assert_eq!(number("coarse_cells") + number("left_out"), 0.0);
+    let call = "tessellate cube.obj -o t.obj --extraordinary tuned --relative 0.01 --json";
+    let report = bench.run(call).ok().json();
+    assert_eq!(report["scheme"]["extraordinary"], "tuned");
+    assert_eq!(report["coarse_cells"], 0);
     let call = "tessellate cube.obj -o p.obj --pixels 20 --size 400x300 --max-levels 2 --json";
     let report = bench.run(call).ok().json();
     assert!(report["coarse_cells"].as_u64() > Some(0), "{report}");
@@ -99,7 +103,6 @@ fn what_makes_no_sense_is_refused() {
     refused("--tolerance 1e-3 --non-manifold sharpen", 2, "--non-manifold cut");
     refused("--tolerance 1e-2 --max-triangles 50", 6, "triangles");
     refused("--tolerance 1e-2 --memory 10K", 6, "bytes");
-    refused("--tolerance 1 --extraordinary tuned", 4, "tuned");
     for both in ["", "--tolerance 1 --pixels 1"] {
         let run = bench.run(&format!("tessellate cube.obj -o no.obj {both}"));
         assert!(run.code == 2 && run.err.contains("--pixels"), "{}", run.err);

@@ -4,9 +4,10 @@ use super::{Shape, WIDTH, at, bases, closed_meshes, quad_schemes};
 use carvel::limit::{Derivatives, Surface};
 use carvel::{Context, ErrorKind, Scheme};
 
-/// Differences of positions this far apart, for first and second derivatives.
-const STEPS: [f64; 2] = [1e-5, 1e-4];
-/// Their errors, of the largest value: rounding over the step, and the step squared.
+/// Differences of values this far apart.
+const STEP: f64 = 1e-5;
+/// Errors of first and second derivatives, of the largest value: rounding over the step, and
+/// the step squared, or less where third derivatives have no bound.
 const ERRORS: [f64; 2] = [1e-7, 1e-4];
 
 fn check(shape: &Shape, surface: &Surface, face: usize, sector: usize, uv: [f64; 2]) {
@@ -25,10 +26,10 @@ fn check(shape: &Shape, surface: &Surface, face: usize, sector: usize, uv: [f64;
     let moved = |du: f64, dv: f64, derivatives| {
         shape.evaluate(surface, at(face, sector, [uv[0] + du, uv[1] + dv]), derivatives)
     };
-    let differences = |step: f64, by_v: bool, derivatives| {
-        let (du, dv) = if by_v { (0.0, step) } else { (step, 0.0) };
+    let differences = |by_v: bool, derivatives| {
+        let (du, dv) = if by_v { (0.0, STEP) } else { (STEP, 0.0) };
         let [on, back] = [moved(du, dv, derivatives), moved(-du, -dv, derivatives)];
-        on.iter().zip(back).map(|(a, b)| (a - b) / (2.0 * step)).collect::<Vec<f64>>()
+        on.iter().zip(back).map(|(a, b)| (a - b) / (2.0 * STEP)).collect::<Vec<f64>>()
     };
     let near = |a: f64, b: f64, error: f64, what: usize| {
         assert!(
@@ -37,7 +38,7 @@ fn check(shape: &Shape, surface: &Surface, face: usize, sector: usize, uv: [f64;
         );
     };
     for by_v in [false, true] {
-        let slopes = differences(STEPS[0], by_v, Derivatives::None);
+        let slopes = differences(by_v, Derivatives::None);
         for k in 0..WIDTH {
             let record = 1 + usize::from(by_v);
             near(found[record * WIDTH + k], slopes[k], ERRORS[0], record);
@@ -45,7 +46,7 @@ fn check(shape: &Shape, surface: &Surface, face: usize, sector: usize, uv: [f64;
         if records.is_empty() {
             continue;
         }
-        let bends = differences(STEPS[1], by_v, Derivatives::First);
+        let bends = differences(by_v, Derivatives::First);
         for k in 0..WIDTH {
             let [first, second] = if by_v { [4, 5] } else { [3, 4] };
             near(found[first * WIDTH + k], bends[WIDTH + k], ERRORS[1], first);

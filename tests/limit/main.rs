@@ -20,7 +20,7 @@ mod poly;
 
 use carvel::limit::{Derivatives, Sample, Surface};
 use carvel::mesh::{BuildOptions, build};
-use carvel::{Boundary, Context, Crease, Fraction, Mesh, Scheme, SharpVertex};
+use carvel::{Boundary, Context, Crease, Extraordinary, Fraction, Mesh, Scheme, SharpVertex};
 use poly::Poly;
 use std::sync::Arc;
 
@@ -106,11 +106,14 @@ fn assert_near(found: &[f64], expected: &[f64], tolerance: f64, what: &str) {
 fn quad_schemes() -> Vec<Scheme> {
     let dual = |passes: &[Fraction]| Scheme::dual(passes).expect("passes");
     let primal = |passes: &[Fraction]| Scheme::primal(passes).expect("passes");
+    let three_point = Scheme::three_point(fraction(1, 32)).expect("a weight");
+    let tuned = three_point.with_extraordinary(Extraordinary::Tuned).expect("its weight");
     vec![
         Scheme::catmull_clark(),
         Scheme::doo_sabin(),
         Scheme::quartic(),
         dual(&[Fraction::HALF]),
+        tuned,
         dual(&[Fraction::ZERO, fraction(7, 2)]),
         primal(&[]),
         primal(&[Fraction::ZERO]),

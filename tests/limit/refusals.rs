@@ -3,7 +3,7 @@
 use super::{Shape, WIDTH, at, bases};
 use carvel::limit::{Derivatives, Sample, Surface};
 use carvel::mesh::BuildOptions;
-use carvel::{Boundary, Context, Element, ErrorKind, Extraordinary, Hierarchy, Scheme};
+use carvel::{Boundary, Context, Element, ErrorKind, Hierarchy, Scheme};
 
 #[track_caller]
 fn refused(shape: &Shape, surface: &Surface, sample: Sample, kind: ErrorKind) {
@@ -110,8 +110,6 @@ fn surfaces_that_are_not_evaluated_are_refused_whole() {
     };
     let shape = Shape::new(&bases::cube());
     let paper = Scheme::three_point(super::fraction(1, 32)).unwrap();
-    let tuned = paper.clone().with_extraordinary(Extraordinary::Tuned).unwrap();
-    assert_eq!(kind(&shape, &tuned), ErrorKind::Unsupported);
     assert_eq!(kind(&shape, &Scheme::loop_triangles()), ErrorKind::Unsupported);
     let wild = Scheme::primal(&[super::fraction(900, 1)]).unwrap();
     assert_eq!(kind(&shape, &wild), ErrorKind::Unsupported);

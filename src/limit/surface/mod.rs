@@ -144,8 +144,7 @@ impl Surface {
     ///
     /// # Errors
     /// As [`Scheme::check`]; [`ErrorKind::Unsupported`] for a mesh that is not manifold or is
-    /// anchored with a boundary, for the tuned rule at extraordinary faces, and for a scheme
-    /// that does not converge on regular grids;
+    /// anchored with a boundary, and for a scheme that does not converge on regular grids;
     /// [`ErrorKind::TooLarge`], [`ErrorKind::MemoryCeiling`], [`ErrorKind::OutOfResources`],
     /// [`ErrorKind::Cancelled`].
     pub fn new(context: &Context, mesh: &Arc<Mesh>, scheme: &Scheme) -> Result<Self> {
@@ -156,9 +155,6 @@ impl Surface {
         }
         if mesh.is_anchored() && !mesh.is_closed() && scheme.method() == Method::Dual {
             return unsupported("the surface of a refined mesh with a boundary is not evaluated");
-        }
-        if !scheme.is_staged() {
-            return unsupported("the surface of the tuned rule is not evaluated");
         }
         let univariate = Univariate::new(scheme)?;
         let window = nodes::window(scheme);

@@ -22,6 +22,8 @@ pub(super) struct Vicinity {
     pub(super) vertices: Vec<u32>,
     creases: Vec<Crease>,
     sharp: Vec<SharpVertex>,
+    /// A step on it heeds the tuned rule.
+    tuned: bool,
     /// The boundary comes so near that it has a say.
     pub(super) on_rim: bool,
 }
@@ -56,6 +58,7 @@ impl Vicinity {
             vertices,
             creases: Vec::new(),
             sharp: Vec::new(),
+            tuned: scheme.tunes(mesh),
             on_rim: faces.inside.iter().any(|&v| mesh.on_rim(v)),
         };
         if scheme.creases() {
@@ -85,13 +88,14 @@ impl Vicinity {
 
     /// What all vicinities of the same surface have in common.
     pub(super) fn name(&self) -> Vec<u32> {
-        let lengths = [self.kind as u32, self.sizes.len() as u32, self.creases.len() as u32];
+        let [faces, creases] = [self.sizes.len(), self.creases.len()].map(|n| n as u32);
+        let start = [self.kind as u32, u32::from(self.tuned), faces, creases];
         let crease = |crease: &Crease| {
             let [a, b] = crease.vertices;
             [a, b, crease.sharpness.to_bits()]
         };
         let sharp = |sharp: &SharpVertex| [sharp.vertex, sharp.sharpness.to_bits()];
-        let mut name = lengths.to_vec();
+        let mut name = start.to_vec();
         name.extend(&self.sizes);
         name.extend(&self.indices);
         name.extend(self.creases.iter().flat_map(crease));
@@ -113,7 +117,8 @@ impl Vicinity {
         };
         let context = Context::serial();
         let vertices = self.vertices.len();
-        let built = build(&context, vertices, &self.sizes, &self.indices, &options)?;
+        let mut built = build(&context, vertices, &self.sizes, &self.indices, &options)?;
+        built.mesh.refined = self.tuned;
         let mesh = &built.mesh;
         let first = (0..mesh.faces()).find(|&face| mesh.face_source(face) == 0);
         let first = first
