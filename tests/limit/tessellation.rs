@@ -373,13 +373,60 @@ fn edges_in_view_are_no_longer_than_asked() {
                 longest = longest.max((p[0] - q[0]).hypot(p[1] - q[1]));
             }
         }
-        assert!(longest <= 8.0 && longest <= of.measure && of.coarse == 0, "{longest}");
+        assert!(longest <= 8.0 && of.coarse == 0, "{longest}");
+        assert!((longest - of.measure).abs() < 1e-9, "{longest} {}", of.measure);
         assert!(longest > 4.0, "{longest}");
         assert_eq!(euler(&mesh(&of)), 2);
         assert!(pixels(40.0).triangles.len() < of.triangles.len() / 8);
         // Behind the eye nothing is seen.
         assert!(pixels(-40.0).triangles.len() <= 60);
     }
+}
+
+/// No chord of the whole is in view, nor one of its quarters.
+#[test]
+fn what_only_its_inside_is_seen_of_is_fine_there() {
+    let shape = Shape::new(&bases::grid(1, 1));
+    let scheme = Scheme::primal(&[]).unwrap();
+    let surface = Surface::new(&Context::serial(), &shape.mesh, &scheme).unwrap();
+    let square: Vec<f64> = shape
+        .mesh
+        .face_vertices(0)
+        .iter()
+        .zip([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+        .fold(vec![0.0; 12], |mut all, (&v, [x, y])| {
+            all[3 * v as usize..][..2].copy_from_slice(&[x, y]);
+            all
+        });
+    // From straight above, a thousandth of the side to either side of a point.
+    let [x, y] = [0.4, 0.17];
+    let matrix = [
+        [1e3, 0.0, 0.0, -1e3 * x],
+        [0.0, 1e3, 0.0, -1e3 * y],
+        [0.0, 0.0, 1.0, 0.0],
+        [0.0, 0.0, 0.0, 1.0],
+    ];
+    let fineness = Fineness::Pixels(30.0, Screen { matrix, viewport: [100.0, 100.0] });
+    let options = TessellateOptions::new(fineness);
+    let of = tessellate(&Context::serial(), &surface, &square, &options).unwrap();
+    let longest_at = |at: [f64; 2]| {
+        let corners = |t: &[u32; 3]| t.map(|v| of.positions[v as usize]);
+        let holds = |t: &&[u32; 3]| {
+            let [a, b, c] = corners(t);
+            [[a, b], [b, c], [c, a]].iter().all(|[p, q]| {
+                (q[0] - p[0]) * (at[1] - p[1]) - (q[1] - p[1]) * (at[0] - p[0]) >= -1e-12
+            })
+        };
+        let [a, b, c] = corners(of.triangles.iter().find(holds).expect("a triangle"));
+        let length = |p: [f64; 3], q: [f64; 3]| 5e4 * (p[0] - q[0]).hypot(p[1] - q[1]);
+        length(a, b).max(length(b, c)).max(length(c, a))
+    };
+    for [i, j] in [[0, 0], [9, 9], [-9, 9], [9, -9], [-5, -9]] {
+        let at = [x + 1e-4 * f64::from(i), y + 1e-4 * f64::from(j)];
+        assert!(longest_at(at) <= 30.0, "{at:?}: {}", longest_at(at));
+    }
+    assert!(of.measure > 15.0 && of.measure <= 30.0 && of.coarse == 0, "{}", of.measure);
+    assert!(of.triangles.len() < 1500, "{}", of.triangles.len());
 }
 
 #[test]

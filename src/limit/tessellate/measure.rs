@@ -17,6 +17,7 @@
 use super::cell::Shape;
 use super::fit::{Fit, places};
 use glam::DVec3;
+use std::ops::Range;
 
 /// What is measured of cells.
 #[derive(Debug, Clone, Copy)]
@@ -44,6 +45,26 @@ impl Measure {
             Self::Screen { matrix, half } => longest(&Projection { matrix, half: *half }, fit),
         }
     }
+}
+
+/// The longest edge of triangles on a screen, of what is in view.
+pub(super) fn longest_in_view(
+    (matrix, half): (&[[f64; 4]; 4], [f64; 2]),
+    positions: &[[f64; 3]],
+    triangles: &[[u32; 3]],
+) -> f64 {
+    let projection = Projection { matrix, half };
+    let clip = |v: u32| projection.clip(DVec3::from(positions[v as usize]));
+    let lengths = triangles.iter().flat_map(|&[a, b, c]| {
+        let [a, b, c] = [a, b, c].map(clip);
+        [[a, b], [b, c], [c, a]].map(|[a, b]| projection.length(a, b, 0..SIDES))
+    });
+    most(lengths)
+}
+
+/// The largest length; one that is no number is too long.
+fn most(lengths: impl Iterator<Item = f64>) -> f64 {
+    lengths.fold(0.0, |most, x| if x.is_nan() { f64::INFINITY } else { most.max(x) })
 }
 
 /// The bound by second derivatives, which are those of coefficients' differences.
@@ -151,12 +172,12 @@ impl Projection<'_> {
         self.matrix.map(|[x, y, z, w]| x * p.x + y * p.y + z * p.z + w)
     }
 
-    /// The length of what is seen of a segment between points in clip coordinates.
-    fn length(&self, a: [f64; 4], b: [f64; 4]) -> f64 {
-        let inside = |[x, y, z, w]: [f64; 4]| [w + x, w - x, w + y, w - y, w + z];
+    /// The length of what lies within some sides of the view of a segment between points in clip
+    /// coordinates.
+    fn length(&self, a: [f64; 4], b: [f64; 4], sides: Range<usize>) -> f64 {
         let (mut first, mut last) = (0.0_f64, 1.0_f64);
-        for (from, to) in inside(a).into_iter().zip(inside(b)) {
-            match (from < 0.0, to < 0.0) {
+        for (from, to) in inside(a)[sides.clone()].iter().zip(&inside(b)[sides]) {
+            match (*from < 0.0, *to < 0.0) {
                 (true, true) => return 0.0,
                 (true, false) => first = first.max(from / (from - to)),
                 (false, true) => last = last.min(from / (from - to)),
@@ -173,9 +194,34 @@ impl Projection<'_> {
         let [from, to] = [pixel(first), pixel(last)];
         ((from[0] - to[0]) * (from[0] - to[0]) + (from[1] - to[1]) * (from[1] - to[1])).sqrt()
     }
+
+    /// True if all of a cell lies beyond one side of the view, since its coefficients do.
+    fn is_out_of_view(&self, fit: &Fit) -> bool {
+        let mut outside = [true; SIDES];
+        for p in fit.all() {
+            for (all, inside) in outside.iter_mut().zip(inside(self.clip(p))) {
+                *all &= inside < 0.0;
+            }
+        }
+        outside.contains(&true)
+    }
 }
 
-/// The longest of the lines between points at halves of a cell's sides that triangles may have.
+/// Of a view: left, right, below, above and in front of the viewer.
+const SIDES: usize = 5;
+/// The last of them.
+const NEAR: usize = 4;
+
+/// Below 0 beyond a side of the view.
+fn inside([x, y, z, w]: [f64; 4]) -> [f64; SIDES] {
+    [w + x, w - x, w + y, w - y, w + z]
+}
+
+/// The longest of the lines between points at halves of a cell's sides that triangles may have, of
+/// what is in front of the viewer; 0 if all of the cell is out of view.
+///
+/// Lines are not cut at the other sides of the view: what is between them may be in view where
+/// they are not.
 fn longest(projection: &Projection, fit: &Fit) -> f64 {
     const SQUARE: [[[usize; 2]; 3]; 8] = [
         [[0, 0], [1, 0], [2, 0]],
@@ -209,17 +255,22 @@ fn longest(projection: &Projection, fit: &Fit) -> f64 {
         [[1, 1], [0, 1]],
         [[0, 1], [1, 0]],
     ];
+    if projection.is_out_of_view(fit) {
+        return 0.0;
+    }
     let points = fit.points().map(|row| row.map(|p| projection.clip(p)));
-    let length =
-        |[a, b]: [[usize; 2]; 2]| projection.length(points[a[1]][a[0]], points[b[1]][b[0]]);
+    let mut halves = places(fit.shape).filter(|place| place.iter().all(|k| k % 2 == 0));
+    if halves.all(|[i, j]| inside(points[j / 2][i / 2])[NEAR] < 0.0) {
+        // Something in between is in front.
+        return f64::INFINITY;
+    }
+    let length = |[a, b]: [[usize; 2]; 2]| {
+        projection.length(points[a[1]][a[0]], points[b[1]][b[0]], NEAR..SIDES)
+    };
     // By way of the middle, lest a line that comes back looks short.
     let bent = |[a, b, c]: [[usize; 2]; 3]| length([a, c]).max(length([a, b]) + length([b, c]));
-    let most = |lengths: &mut dyn Iterator<Item = f64>| {
-        // A length that is no number is too long.
-        lengths.fold(0.0, |most: f64, x| if x.is_nan() { f64::INFINITY } else { most.max(x) })
-    };
     match fit.shape {
-        Shape::Triangle => most(&mut TRIANGLE.map(bent).into_iter().chain(INSIDE.map(length))),
-        _ => most(&mut SQUARE.map(bent).into_iter().chain(ACROSS.map(length))),
+        Shape::Triangle => most(TRIANGLE.map(bent).into_iter().chain(INSIDE.map(length))),
+        _ => most(SQUARE.map(bent).into_iter().chain(ACROSS.map(length))),
     }
 }

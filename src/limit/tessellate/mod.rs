@@ -41,8 +41,8 @@ pub enum Fineness {
     /// When no point of the surface is farther from them than this, in units of the positions;
     /// finite and above 0.
     Chord(f64),
-    /// When what is seen of their edges on a screen is no longer than this, in pixels; finite
-    /// and above 0.
+    /// When their edges are no longer than this on a screen, in pixels, wherever they may be in
+    /// view; finite and above 0.
     Pixels(f64, Screen),
 }
 
@@ -134,8 +134,8 @@ pub struct Tessellation {
     /// smooth. At features, where the surface has no derivatives, they are those of points next to
     /// them, where that has none either those of the triangles, and zero where these have none.
     pub normals: Vec<[f64; 3]>,
-    /// The largest measure of a cell, by which all were found fine: a bound on the distance, or
-    /// the longest edge in pixels.
+    /// The bound on the distance by which all cells were found fine, or the length of the longest
+    /// edge in pixels, of what is in view.
     pub measure: f64,
     /// Cells that [`TessellateOptions::levels`] left coarser than asked for.
     pub coarse: u64,
@@ -156,8 +156,10 @@ pub struct Tessellation {
 /// Distance counts parameters too: it is measured between points of equal coordinates unless a
 /// cell is flat.
 ///
-/// Under [`Fineness::Pixels`] every edge in view is measured, those outside the view are not,
-/// so that what is seen alone is fine. The distance from the surface is then not looked at.
+/// Under [`Fineness::Pixels`] cells are judged by all edges that they may get, in front of the
+/// viewer, unless their hull lies beyond a side of the view: those stay coarse. Cells that are
+/// halved only because of finer neighbours are not judged again, and may have edges that are
+/// longer; [`Tessellation::measure`] tells. The distance from the surface is not looked at.
 ///
 /// Edges match bit for bit, between faces and between sectors: the triangles of a closed mesh
 /// are closed, with its Euler characteristic. As a mesh of their own ([`crate::Mesh`]) they are
@@ -211,7 +213,7 @@ pub fn tessellate<T: Scalar>(
     let plan = Plan::new(context, net, options.triangles)?;
     context.report(0.5)?;
     let mut made = plan.places(context)?;
-    (made.measure, made.coarse, made.missing) = (largest, coarse, missing);
+    (made.coarse, made.missing) = (coarse, missing);
     let evaluated = normals::evaluate(context, surface, &made.places, &positions)?;
     for (&v, [position, _]) in made.place_vertices.iter().zip(&evaluated).rev() {
         made.positions[v as usize] = *position;
@@ -220,10 +222,13 @@ pub fn tessellate<T: Scalar>(
     context.report(0.9)?;
     plan.triangles(context, &mut made)?;
     normals::settle(&mut made)?;
+    made.measure = match &goal.measure {
+        Measure::Chord => libm::scalbn(largest, scale),
+        Measure::Screen { matrix, half } => {
+            measure::longest_in_view((matrix, *half), &made.positions, &made.triangles)
+        }
+    };
     made.positions.as_flattened_mut().iter_mut().for_each(|x| *x = libm::scalbn(*x, scale));
-    if matches!(goal.measure, Measure::Chord) {
-        made.measure = libm::scalbn(made.measure, scale);
-    }
     Ok(made)
 }
 

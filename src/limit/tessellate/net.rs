@@ -1,12 +1,15 @@
 //! Cells beside each other: none with a side that others cut into more than two.
 
 use super::cell::{Cell, Point, Root, Shape};
+use super::plan;
 use super::shared::Shared;
 use crate::base::{Context, Result, memory};
 use crate::mesh::Mesh;
 
 /// Roots that a thread takes at once.
 const SHARE: usize = 64;
+/// Cells of a root after which it is asked whether to go on.
+const PAUSE: usize = 4096;
 
 /// The cells of all roots with their corners.
 pub(super) struct Net<'a> {
@@ -23,7 +26,8 @@ pub(super) struct Net<'a> {
 
 impl<'a> Net<'a> {
     /// # Errors
-    /// [`crate::ErrorKind::OutOfResources`], [`crate::ErrorKind::Cancelled`].
+    /// [`crate::ErrorKind::MemoryCeiling`], [`crate::ErrorKind::OutOfResources`],
+    /// [`crate::ErrorKind::Cancelled`].
     pub(super) fn new(
         context: &'a Context,
         mesh: &'a Mesh,
@@ -52,6 +56,21 @@ impl<'a> Net<'a> {
             memory::extend(&mut all, share?)?;
         }
         Ok(all)
+    }
+
+    /// Runs work on the cells of a root with their numbers, until a cancel is asked for.
+    pub(super) fn each_cell(
+        &self,
+        root: usize,
+        mut work: impl FnMut(usize, Cell) -> Result<()>,
+    ) -> Result<()> {
+        for (k, &cell) in self.cells[root].iter().enumerate() {
+            if k.is_multiple_of(PAUSE) {
+                self.context.check_cancelled()?;
+            }
+            work(k, cell)?;
+        }
+        Ok(())
     }
 
     /// The name of a point of a root that others may have too.
@@ -92,12 +111,11 @@ impl<'a> Net<'a> {
     fn find_points(&mut self) -> Result<()> {
         let found = self.each(|i| {
             let shape = self.roots[i].shape;
-            let corners = |cell: &Cell| {
-                let cell = *cell;
-                Cell::corners(shape).iter().map(move |&at| cell.quarters(at))
-            };
             let mut points = memory::reserved(self.cells[i].len() * 4)?;
-            points.extend(self.cells[i].iter().flat_map(corners));
+            self.each_cell(i, |_, cell| {
+                points.extend(Cell::corners(shape).iter().map(|&at| cell.quarters(at)));
+                Ok(())
+            })?;
             points.sort_unstable();
             points.dedup();
             let border = points.iter().filter_map(|&point| self.shared(i, point));
@@ -149,19 +167,15 @@ impl<'a> Net<'a> {
     fn balance(&mut self) -> Result<()> {
         loop {
             let finer = self.each(|i| {
-                let shape = self.roots[i].shape;
-                if !self.cells[i].iter().any(|&cell| self.is_too_coarse(i, cell)) {
-                    return Ok(None);
-                }
                 let mut finer = Vec::new();
-                for &cell in &self.cells[i] {
+                self.each_cell(i, |_, cell| {
                     if self.is_too_coarse(i, cell) {
-                        memory::extend(&mut finer, cell.children(shape))?;
+                        memory::extend(&mut finer, cell.children(self.roots[i].shape))
                     } else {
-                        memory::extend(&mut finer, [cell])?;
+                        memory::extend(&mut finer, [cell])
                     }
-                }
-                Ok(Some(finer))
+                })?;
+                Ok((finer.len() > self.cells[i].len()).then_some(finer))
             })?;
             let mut changed = false;
             for (cells, finer) in self.cells.iter_mut().zip(finer) {
@@ -170,6 +184,8 @@ impl<'a> Net<'a> {
                     changed = true;
                 }
             }
+            let count: usize = self.cells.iter().map(Vec::len).sum();
+            self.context.check_memory(count as u64 * plan::CELL)?;
             if !changed {
                 self.cells.iter_mut().for_each(|cells| cells.sort_unstable_by_key(|c| c.order()));
                 return Ok(());

@@ -33,14 +33,17 @@ impl<'a> Plan<'a> {
     pub(super) fn new(context: &Context, mut net: Net<'a>, most: u64) -> Result<Self> {
         let found = net.each(|i| {
             let shape = net.roots[i].shape;
-            let cells = &net.cells[i];
-            let cuts = memory::collect(cells.iter().map(|&cell| net.cuts(i, cell)))?;
-            let of_cells = || cells.iter().zip(&cuts);
-            let further = of_cells().flat_map(|(&c, &cuts)| triangles::further(shape, c, cuts));
             let is_new = |at: &Point| net.points[i].binary_search(at).is_err();
-            let further = memory::collect(further.filter(is_new))?;
-            let count: usize = of_cells().map(|(_, &cuts)| triangles::count(shape, cuts)).sum();
-            Ok((cuts, further, count as u64))
+            let (mut cuts, mut further) = (memory::reserved(net.cells[i].len())?, Vec::new());
+            let mut count = 0;
+            net.each_cell(i, |_, cell| {
+                let cut = net.cuts(i, cell);
+                cuts.push(cut);
+                count += triangles::count(shape, cut) as u64;
+                let points = triangles::further(shape, cell, cut);
+                memory::extend(&mut further, points.into_iter().filter(is_new))
+            })?;
+            Ok((cuts, further, count))
         })?;
         let (mut cuts, mut starts) = (Vec::new(), Vec::new());
         let mut sums = [0, 0];
@@ -118,7 +121,7 @@ impl<'a> Plan<'a> {
 
     /// The triangles of a root, by their places.
     fn triangles_of(&self, i: usize, made: &Tessellation) -> Result<Vec<[u32; 3]>> {
-        let Net { roots, cells, points, .. } = &self.net;
+        let Net { roots, points, .. } = &self.net;
         let ([first, start], [_, end]) = (self.starts[i], self.starts[i + 1]);
         let mut triangles = memory::reserved((end - start) as usize)?;
         let place = |at: Point| first + points[i].partition_point(|&other| other < at) as u32;
@@ -133,11 +136,14 @@ impl<'a> Plan<'a> {
             let length = |a: Point, b: Point| position(a).distance_squared(position(b));
             if outer[0] == outer[1] { length(a, c) <= length(b, d) } else { outer[1] }
         };
-        for (&cell, &cuts) in cells[i].iter().zip(&self.cuts[i]) {
+        let mut cuts = self.cuts[i].iter();
+        self.net.each_cell(i, |_, cell| {
+            let cuts = cuts.next().copied().unwrap_or_default();
             triangles::triangles(roots[i].shape, cell, cuts, first_diagonal, |corners| {
                 triangles.push(corners.map(place));
             });
-        }
+            Ok(())
+        })?;
         Ok(triangles)
     }
 }

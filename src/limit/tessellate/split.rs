@@ -13,7 +13,7 @@ const SAFETY: f64 = 2.0;
 const BATCH: usize = 4096;
 /// Cells that a thread takes at once.
 const SHARE: usize = 16;
-/// Leaves after which the memory ceiling is asked.
+/// Leaves that the memory ceiling is asked for at once.
 const PAUSE: u64 = 4096;
 
 /// How fine cells are to be.
@@ -67,6 +67,9 @@ struct Splitter<'a> {
     surface: &'a Surface,
     roots: &'a [Root],
     goal: &'a Goal,
+    /// The memory ceiling allows fewer cells than the goal: of two limits only the lower is asked,
+    /// so that it does not depend on threads which one is named.
+    is_ceiling_lower: bool,
     leaves: AtomicU64,
 }
 
@@ -82,7 +85,9 @@ pub(super) fn split(
     roots: &[Root],
     goal: &Goal,
 ) -> Result<Leaves> {
-    let splitter = Splitter { context, surface, roots, goal, leaves: AtomicU64::new(0) };
+    let is_ceiling_lower = context.check_memory(goal.cells.saturating_mul(goal.bytes)).is_err();
+    let leaves = AtomicU64::new(0);
+    let splitter = Splitter { context, surface, roots, goal, is_ceiling_lower, leaves };
     let mut leaves = Leaves::default();
     memory::extend(&mut leaves.cells, roots.iter().map(|_| Vec::new()))?;
     let mut open = splitter.begin(&mut leaves.missing)?;
@@ -202,12 +207,14 @@ impl Splitter<'_> {
 
     fn add(&self, root: u32, cell: Cell, leaf: Leaf, found: &mut Found) -> Result<()> {
         let before = self.leaves.fetch_add(1, Ordering::Relaxed);
-        if before >= self.goal.cells {
-            return Err(too_many());
-        }
         if before.is_multiple_of(PAUSE) {
             self.context.check_cancelled()?;
-            self.context.check_memory((before + PAUSE).saturating_mul(self.goal.bytes))?;
+        }
+        if self.is_ceiling_lower {
+            let cells = (before / PAUSE + 1) * PAUSE;
+            self.context.check_memory(cells.saturating_mul(self.goal.bytes))?;
+        } else if before >= self.goal.cells {
+            return Err(too_many());
         }
         found.largest = found.largest.max(leaf.measure);
         found.coarse += u64::from(!leaf.fine);
