@@ -113,9 +113,9 @@ impl Run<'_> {
         let work = Work { control: &input.file, built: &built, chosen: &chosen };
         let (cut, limit) =
             timed(&mut seconds.refine, || self.cut(context, &work)).map_err(of_work)?;
-        let (made, surface) = cut;
-        let (file, lost) =
-            timed(&mut seconds.refine, || work.file(context, &surface, &made)).map_err(of_work)?;
+        let (mut made, surface) = cut;
+        let filled = timed(&mut seconds.refine, || work.file(context, &surface, &mut made));
+        let (file, lost) = filled.map_err(of_work)?;
         drop(surface);
         let mut notes = input.file.notes.clone();
         notes.extend(not_manifold(&input.file, &built));
@@ -161,12 +161,17 @@ impl Run<'_> {
             let all = TessellateOptions::new(fineness);
             TessellateOptions { levels, triangles: self.args.max_triangles, partial, ..all }
         };
-        let diagonal = diagonal(points);
         let (fineness, limit) = match (self.args.tolerance, self.args.relative, self.args.pixels) {
             (Some(tolerance), ..) => (Fineness::Chord(tolerance), tolerance),
-            (_, Some(part), _) => (Fineness::Chord(part * diagonal), part * diagonal),
+            (_, Some(part), _) => {
+                let tolerance = diagonal(points, part);
+                (Fineness::Chord(tolerance), tolerance)
+            }
             (.., pixels) => {
-                let rough = options(Fineness::Chord(ROUGH * diagonal), ROUGH_LEVELS);
+                let rough = Fineness::Chord(diagonal(points, ROUGH));
+                // It is no result: --max-triangles is not for it.
+                let all = TessellateOptions::new(rough);
+                let rough = TessellateOptions { levels: ROUGH_LEVELS, partial, ..all };
                 let rough = tessellate(context, &surface, points, &rough)?;
                 let sizes = vec![3; rough.triangles.len()];
                 let corners = rough.triangles.as_flattened();
@@ -270,21 +275,23 @@ struct Work<'a> {
 }
 
 impl Work<'_> {
-    /// The triangles with all that the control mesh hands down, and what it could not.
+    /// The triangles, which are moved there, with all that the control mesh hands down, and what
+    /// it could not.
     fn file(
         &self,
         context: &Context,
         surface: &Surface,
-        made: &Tessellation,
+        made: &mut Tessellation,
     ) -> KernelResult<(MeshFile, Vec<String>)> {
         let load = Load::of(self.control, self.built.vertex_source.as_deref(), true);
+        context.check_memory(file_bytes(made, load.width()))?;
+        let samples = first_places(made)?;
         let mut file = MeshFile {
-            positions: made.positions.clone(),
-            face_sizes: vec![3; made.triangles.len()],
-            face_vertices: made.triangles.as_flattened().to_vec(),
+            face_sizes: memory::zeroed(3, made.triangles.len() as u64)?,
+            positions: std::mem::take(&mut made.positions),
+            face_vertices: std::mem::take(&mut made.triangles).into_flattened(),
             ..MeshFile::default()
         };
-        let samples = first_places(made);
         let columns = load.columns.iter().map(|column| {
             let mut values = memory::zeroed(0.0, (samples.len() * column.width) as u64)?;
             let (width, none) = (column.width, Derivatives::None);
@@ -296,49 +303,63 @@ impl Work<'_> {
         let faces: Vec<u32> = made.faces.iter().map(source).collect();
         carry::inherit(self.control, &faces, &mut file);
         carry::unload(&load, columns, self.control, &mut file);
-        normals(made, &mut file);
+        normals(made, samples.len(), &mut file)?;
         Ok((file, load.dropped.into_iter().collect()))
     }
 }
 
-/// The first place of each vertex.
-fn first_places(made: &Tessellation) -> Vec<Sample> {
-    let mut samples: Vec<Sample> = Vec::with_capacity(made.positions.len());
-    for (&v, &place) in made.place_vertices.iter().zip(&made.places) {
-        if v as usize == samples.len() {
-            samples.push(place);
-        }
-    }
-    samples
+/// Bytes of triangles and of the file that is made of them, which has values of some width at
+/// vertices, positions among them.
+fn file_bytes(made: &Tessellation, width: u64) -> u64 {
+    let count = |n: usize| n as u64;
+    let (point, index) = (size_of::<[f64; 3]>() as u64, size_of::<u32>() as u64);
+    let sample = size_of::<Sample>() as u64;
+    // A column is there twice as it is put into the file.
+    let of_vertex = point + sample + 16 * width;
+    let of_place = sample + index + 2 * point;
+    // Vertices, places, face; then size, normals, the columns' indices, labels.
+    let of_triangle = 7 * index + 9 * index;
+    count(made.positions.len()) * of_vertex
+        + count(made.places.len()) * of_place
+        + count(made.triangles.len()) * of_triangle
 }
 
-/// One normal for each vertex, unless some have several.
-fn normals(made: &Tessellation, file: &mut MeshFile) {
-    let mut first: Vec<[f64; 3]> = Vec::with_capacity(made.positions.len());
-    let mut single = true;
-    for (&v, &normal) in made.place_vertices.iter().zip(&made.normals) {
-        match first.get(v as usize) {
-            None => first.push(normal),
-            Some(known) => single &= known.map(f64::to_bits) == normal.map(f64::to_bits),
-        }
+/// The first place of each vertex.
+fn first_places(made: &Tessellation) -> KernelResult<Vec<Sample>> {
+    let unset = Sample { face: 0, sector: 0, u: 0.0, v: 0.0 };
+    let mut samples = memory::zeroed(unset, made.positions.len() as u64)?;
+    for (&v, &place) in made.place_vertices.iter().zip(&made.places).rev() {
+        samples[v as usize] = place;
     }
-    if single {
+    Ok(samples)
+}
+
+/// One normal for each of so many vertices, unless some have several.
+fn normals(made: &mut Tessellation, vertices: usize, file: &mut MeshFile) -> KernelResult<()> {
+    let mut first = memory::zeroed([0.0; 3], vertices as u64)?;
+    let of_places = || made.place_vertices.iter().zip(&made.normals);
+    for (&v, &normal) in of_places().rev() {
+        first[v as usize] = normal;
+    }
+    let same = |a: [f64; 3], b: [f64; 3]| a.map(f64::to_bits) == b.map(f64::to_bits);
+    if of_places().all(|(&v, &normal)| same(first[v as usize], normal)) {
         (file.normals, file.face_normals) = (first, Some(file.face_vertices.clone()));
     } else {
-        file.normals.clone_from(&made.normals);
-        file.face_normals = Some(made.triangle_places.as_flattened().to_vec());
+        file.normals = std::mem::take(&mut made.normals);
+        file.face_normals = Some(std::mem::take(&mut made.triangle_places).into_flattened());
     }
+    Ok(())
 }
 
-/// The diagonal of a bounding box; 1 if it has none.
-fn diagonal(positions: &[f64]) -> f64 {
+/// A part of the diagonal of a bounding box; of 1 if it has none, or if it is beyond all numbers.
+fn diagonal(positions: &[f64], part: f64) -> f64 {
     let extent = |k: usize| {
         let along = || positions.iter().skip(k).step_by(3);
         let (low, high) = (along().copied().reduce(f64::min), along().copied().reduce(f64::max));
-        low.zip(high).map_or(0.0, |(low, high)| high - low)
+        low.zip(high).map_or(0.0, |(low, high)| part * high - part * low)
     };
     let length = libm::hypot(libm::hypot(extent(0), extent(1)), extent(2));
-    if length > 0.0 && length.is_finite() { length } else { 1.0 }
+    if length > 0.0 && length.is_finite() { length } else { part }
 }
 
 #[cfg(test)]
@@ -347,7 +368,9 @@ mod tests {
 
     #[test]
     fn a_diagonal_is_that_of_the_box() {
-        assert!((diagonal(&[1.0, 2.0, 3.0, 4.0, 6.0, 15.0]) - 13.0).abs() < 1e-12);
-        assert!((diagonal(&[1.0, 2.0, 3.0]) - 1.0).abs() < 1e-12);
+        assert!((diagonal(&[1.0, 2.0, 3.0, 4.0, 6.0, 15.0], 0.5) - 6.5).abs() < 1e-12);
+        assert!((diagonal(&[1.0, 2.0, 3.0], 0.5) - 0.5).abs() < 1e-12);
+        let wide = diagonal(&[-1.5e308, 0.0, 0.0, 1.5e308, 0.0, 0.0], 1e-3);
+        assert!((wide / 3e305 - 1.0).abs() < 1e-12);
     }
 }
