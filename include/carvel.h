@@ -104,6 +104,7 @@
  *   carvel_hierarchy  all levels, kept: values again and again, lineage
  *   carvel_stencils   rows of weights: the cheapest values of a fixed topology
  *   carvel_surface    the limit surface at any point, with derivatives
+ *   carvel_tessellation  triangles within a tolerance of it
  *   carvel_mask       a scheme of polygons, and what is proved of it
  *   (analysis)        how smooth a scheme's surfaces are around a feature
  *
@@ -166,8 +167,8 @@
  *            its boundary is rounded off anew. The surface is the one that more
  *            levels at once give, numbered otherwise.
  *
- * Threads    A mesh, scheme, hierarchy, context, stencil table, surface or mask may be used
- *            by any number of threads at once. A refiner serves one call at a time and answers
+ * Threads    A mesh, scheme, hierarchy, context, stencil table, surface, tessellation or mask
+ *            may be used by any number of threads at once. A refiner serves one call at a time and answers
  *            CARVEL_STATUS_BUSY to another. An error belongs to one thread at
  *            a time. There is no global state that a caller could see, no
  *            hidden thread pool.
@@ -1681,9 +1682,8 @@ enum carvel_derivatives {
  * memory grow with the corners of the mesh, and with the number of ways in which its
  * irregular parts look different.
  * Errors: NULL_POINTER, MISALIGNED; PARAMETER_OUT_OF_RANGE for a scheme that does not take
- * the mesh; UNSUPPORTED for a mesh that is not manifold or is anchored with a boundary, for
- * the tuned rule at extraordinary faces, and for a scheme that does not converge on regular
- * grids; TOO_LARGE, MEMORY_CEILING, OUT_OF_RESOURCES, CANCELLED. */
+ * the mesh; UNSUPPORTED for a mesh that is not manifold or is anchored with a boundary, and for
+ * a scheme that does not converge on regular grids; TOO_LARGE, MEMORY_CEILING, OUT_OF_RESOURCES, CANCELLED. */
 CARVEL_API carvel_status carvel_surface_create(const carvel_context *context,
                                                const carvel_mesh *mesh,
                                                const carvel_scheme *scheme,
@@ -1744,6 +1744,139 @@ CARVEL_API carvel_status carvel_surface_stencils(const carvel_context *context,
                                                  uint64_t sample_count, int32_t derivatives,
                                                  int32_t precision, carvel_stencils **out,
                                                  carvel_error *error);
+
+/* ==========================================================================
+ * carvel_tessellation: triangles on the limit surface
+ *
+ * Small where they have to be, within a tolerance of the surface or short on a screen,
+ * without cracks: points on edges are shared by the faces there, bit for bit. Holes are left
+ * out. docs/tessellation.md says how far the tolerance is proven.
+ *
+ * A place is a vertex as a point of one face or sector: inside a face a vertex has one, on
+ * an edge one for each side, so that normals may differ across a crease.
+ * carvel_surface_evaluate of the places gives any other values.
+ * ========================================================================== */
+
+typedef struct carvel_tessellation carvel_tessellation;
+
+/* When triangles are small enough. */
+enum carvel_fineness {
+    /* When no point of the surface is farther from them than `tolerance`, in units of the
+     * positions. */
+    CARVEL_FINENESS_CHORD = 0,
+    /* When their edges are no longer than `tolerance` on a screen, in pixels, wherever they
+     * may be in view. */
+    CARVEL_FINENESS_PIXELS = 1
+};
+
+typedef struct carvel_tessellation_desc {
+    uint32_t struct_size;
+    /* One of enum carvel_fineness. */
+    int32_t fineness;
+    /* Finite and above 0; there is no default. */
+    double tolerance;
+    /* Halvings of a face's sides at most, 1 to 24; 0 for 20. */
+    uint32_t max_levels;
+    /* 1 to leave out faces, or sectors of them, that have no surface somewhere, as beside
+     * a boundary where a dual scheme ends inside; 0 to refuse them. */
+    uint32_t partial;
+    /* The most triangles; 0 for 4294967295. */
+    uint64_t max_triangles;
+    /* For pixels: the matrix, by rows, that takes (x, y, z, 1) to clip coordinates, where
+     * (x, y, z, w) is in view if |x| <= w, |y| <= w and -w <= z. Finite. */
+    double matrix[16];
+    /* For pixels: width and height of the picture. Finite and above 0. */
+    double viewport[2];
+} carvel_tessellation_desc;
+
+/* The size of a tessellation, and what it came to. */
+typedef struct carvel_triangle_counts {
+    uint32_t struct_size;
+    uint32_t reserved;
+    uint64_t vertices;
+    uint64_t triangles;
+    uint64_t places;
+    /* The bound on the distance from the surface, or the longest edge in view in pixels. */
+    double measure;
+    /* Cells that `max_levels` left coarser than asked for. */
+    uint64_t coarse;
+    /* Faces, or sectors, that `partial` left out. */
+    uint64_t missing;
+} carvel_triangle_counts;
+
+/* Sets every field to its default: struct_size is sizeof(carvel_tessellation_desc).
+ * Errors: NULL_POINTER, MISALIGNED, STRUCT_SIZE. */
+CARVEL_API carvel_status carvel_tessellation_desc_init(carvel_tessellation_desc *desc,
+                                                       uint32_t struct_size);
+CARVEL_API carvel_status carvel_triangle_counts_init(carvel_triangle_counts *counts,
+                                                     uint32_t struct_size);
+
+/* Cuts a surface into triangles. The surface is not needed afterwards. The same at any
+ * number of threads. Some microseconds and 150 bytes for each triangle, which the context's
+ * ceiling bounds as they come to be known.
+ * positions: those of the control vertices, three numbers each, finite.
+ * Errors: NULL_POINTER, MISALIGNED, STRUCT_SIZE, INVALID_STRIDE; LENGTH_MISMATCH for other
+ * than three numbers for each vertex; PARAMETER_OUT_OF_RANGE for a field; NOT_FINITE, naming
+ * the vertex; UNSUPPORTED, naming the face, where the surface is not evaluated; TOO_LARGE for
+ * more triangles than may be; MEMORY_CEILING, OUT_OF_RESOURCES, CANCELLED. */
+CARVEL_API carvel_status carvel_tessellation_create_f32(const carvel_context *context,
+                                                        const carvel_surface *surface,
+                                                        const carvel_const_values_f32 *positions,
+                                                        const carvel_tessellation_desc *desc,
+                                                        carvel_tessellation **out,
+                                                        carvel_error *error);
+CARVEL_API carvel_status carvel_tessellation_create_f64(const carvel_context *context,
+                                                        const carvel_surface *surface,
+                                                        const carvel_const_values_f64 *positions,
+                                                        const carvel_tessellation_desc *desc,
+                                                        carvel_tessellation **out,
+                                                        carvel_error *error);
+
+/* Destroys a tessellation. NULL is allowed. */
+CARVEL_API void carvel_tessellation_destroy(carvel_tessellation *tessellation);
+
+/* Its sizes; counts->struct_size must be set. No cost.
+ * Errors: NULL_POINTER, MISALIGNED, STRUCT_SIZE. */
+CARVEL_API carvel_status carvel_tessellation_counts(const carvel_tessellation *tessellation,
+                                                    carvel_triangle_counts *counts,
+                                                    carvel_error *error);
+
+/* The triangles, counter-clockwise as the faces are; those of a face stand together, in the
+ * order of the faces. Each list may be NULL and is then left out.
+ * vertices: three vertices for each triangle.
+ * places: three places for each triangle, all in its face and sector.
+ * faces: the control face of each triangle, in the mesh's order.
+ * capacity: triangles that the lists have room for.
+ * Errors: NULL_POINTER, MISALIGNED, OVERLAP, BUFFER_TOO_SMALL, TOO_LARGE. */
+CARVEL_API carvel_status carvel_tessellation_triangles(const carvel_tessellation *tessellation,
+                                                       uint32_t *vertices, uint32_t *places,
+                                                       uint32_t *faces, uint64_t capacity,
+                                                       carvel_error *error);
+
+/* The places: where they are on the surface, and the vertex of each. A vertex has the
+ * position of its first place. Either list may be NULL and is then left out.
+ * Errors: NULL_POINTER, MISALIGNED, OVERLAP, BUFFER_TOO_SMALL, TOO_LARGE. */
+CARVEL_API carvel_status carvel_tessellation_places(const carvel_tessellation *tessellation,
+                                                    carvel_sample *samples, uint32_t *vertices,
+                                                    uint64_t capacity, carvel_error *error);
+
+/* The positions of the vertices, three numbers each.
+ * Errors: NULL_POINTER, MISALIGNED, INVALID_STRIDE, OVERLAP, BUFFER_TOO_SMALL, TOO_LARGE;
+ * LENGTH_MISMATCH for another width; NOT_FINITE for a point beyond the range of floats;
+ * OUT_OF_RESOURCES. */
+CARVEL_API carvel_status carvel_tessellation_positions_f32(
+    const carvel_tessellation *tessellation, const carvel_values_f32 *out, carvel_error *error);
+CARVEL_API carvel_status carvel_tessellation_positions_f64(
+    const carvel_tessellation *tessellation, const carvel_values_f64 *out, carvel_error *error);
+
+/* Unit normals of the places, the same for all of a vertex unless the surface is not smooth
+ * there. Where it has no derivatives they are those of points beside, or of the triangles;
+ * zero where these have none.
+ * Errors: as carvel_tessellation_positions. */
+CARVEL_API carvel_status carvel_tessellation_normals_f32(
+    const carvel_tessellation *tessellation, const carvel_values_f32 *out, carvel_error *error);
+CARVEL_API carvel_status carvel_tessellation_normals_f64(
+    const carvel_tessellation *tessellation, const carvel_values_f64 *out, carvel_error *error);
 
 /* ==========================================================================
  * carvel_mask: a scheme of polygons

@@ -69,6 +69,7 @@
 
 #include <carvel.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -673,6 +674,7 @@ inline void destroy(carvel_refiner *object) { carvel_refiner_destroy(object); }
 inline void destroy(carvel_hierarchy *object) { carvel_hierarchy_destroy(object); }
 inline void destroy(carvel_stencils *object) { carvel_stencils_destroy(object); }
 inline void destroy(carvel_surface *object) { carvel_surface_destroy(object); }
+inline void destroy(carvel_tessellation *object) { carvel_tessellation_destroy(object); }
 inline void destroy(carvel_mask *object) { carvel_mask_destroy(object); }
 
 /* The twins by type. */
@@ -751,6 +753,40 @@ inline carvel_status evaluate(const carvel_surface *surface, const carvel_contex
 {
     return carvel_surface_evaluate_f64(surface, context, samples, count,
                                        static_cast<std::int32_t>(derivatives), values, out, error);
+}
+inline carvel_status tessellate(const carvel_context *context, const carvel_surface *surface,
+                                const carvel_const_values_f32 *positions,
+                                const carvel_tessellation_desc *desc, carvel_tessellation **out,
+                                carvel_error *error)
+{
+    return carvel_tessellation_create_f32(context, surface, positions, desc, out, error);
+}
+inline carvel_status tessellate(const carvel_context *context, const carvel_surface *surface,
+                                const carvel_const_values_f64 *positions,
+                                const carvel_tessellation_desc *desc, carvel_tessellation **out,
+                                carvel_error *error)
+{
+    return carvel_tessellation_create_f64(context, surface, positions, desc, out, error);
+}
+inline carvel_status positions(const carvel_tessellation *tessellation,
+                               const carvel_values_f32 *out, carvel_error *error)
+{
+    return carvel_tessellation_positions_f32(tessellation, out, error);
+}
+inline carvel_status positions(const carvel_tessellation *tessellation,
+                               const carvel_values_f64 *out, carvel_error *error)
+{
+    return carvel_tessellation_positions_f64(tessellation, out, error);
+}
+inline carvel_status normals(const carvel_tessellation *tessellation,
+                             const carvel_values_f32 *out, carvel_error *error)
+{
+    return carvel_tessellation_normals_f32(tessellation, out, error);
+}
+inline carvel_status normals(const carvel_tessellation *tessellation,
+                             const carvel_values_f64 *out, carvel_error *error)
+{
+    return carvel_tessellation_normals_f64(tessellation, out, error);
 }
 inline carvel_status refine(const carvel_mask *mask, const carvel_context *context,
                             carvel_ends ends, std::uint32_t steps,
@@ -2192,6 +2228,174 @@ public:
         return try_stencils(samples, derivatives, precision, context).value();
     }
 #endif
+};
+
+/* ==========================================================================
+ * Tessellation: triangles on a limit surface
+ * ========================================================================== */
+
+using TriangleCounts = carvel_triangle_counts;
+
+/* How fine: carvel_tessellation_desc. */
+struct TessellationDesc {
+    double tolerance = 0;
+    carvel_fineness fineness = CARVEL_FINENESS_CHORD;
+    std::uint32_t max_levels = 0;
+    bool partial = false;
+    std::uint64_t max_triangles = 0;
+    /* For pixels: by rows. */
+    std::array<double, 16> matrix = {};
+    std::array<double, 2> viewport = {};
+};
+
+/* carvel_tessellation. */
+class Tessellation : public detail::Handle<carvel_tessellation, detail::destroy> {
+public:
+    using Handle::Handle;
+    /* Hands the object over to the caller. */
+    carvel_tessellation *release() noexcept { return object_.release(); }
+
+    /* Takes what values() takes, or what values(), rows() and columns() give. */
+    template <class V>
+    static Result<Tessellation> try_create(const Surface &surface, const V &control,
+                                           const TessellationDesc &desc,
+                                           const Context *context = nullptr)
+    {
+        const ConstValues from = values(control);
+        carvel_tessellation_desc c = detail::sized<carvel_tessellation_desc>();
+        c.fineness = static_cast<std::int32_t>(desc.fineness);
+        c.tolerance = desc.tolerance;
+        c.max_levels = desc.max_levels;
+        c.partial = desc.partial;
+        c.max_triangles = desc.max_triangles;
+        std::copy(desc.matrix.begin(), desc.matrix.end(), c.matrix);
+        std::copy(desc.viewport.begin(), desc.viewport.end(), c.viewport);
+        detail::Call call;
+        carvel_tessellation *out = nullptr;
+        call.status = detail::tessellate(detail::raw(context), surface.get(), &from, &c, &out,
+                                         call.error());
+        return call.result(Tessellation(out));
+    }
+
+    Result<TriangleCounts> try_counts() const
+    {
+        detail::Call call;
+        TriangleCounts counts = detail::sized<TriangleCounts>();
+        call.status = carvel_tessellation_counts(get(), &counts, call.error());
+        return call.result(counts);
+    }
+
+    /* Three vertices for each triangle. */
+    Result<std::vector<std::uint32_t>> try_triangles() const
+    {
+        return triangles(3, [](const carvel_tessellation *of, std::uint32_t *out,
+                               std::uint64_t count, carvel_error *error) {
+            return carvel_tessellation_triangles(of, out, nullptr, nullptr, count, error);
+        });
+    }
+    /* Three places for each triangle. */
+    Result<std::vector<std::uint32_t>> try_triangle_places() const
+    {
+        return triangles(3, [](const carvel_tessellation *of, std::uint32_t *out,
+                               std::uint64_t count, carvel_error *error) {
+            return carvel_tessellation_triangles(of, nullptr, out, nullptr, count, error);
+        });
+    }
+    /* The control face of each triangle. */
+    Result<std::vector<std::uint32_t>> try_faces() const
+    {
+        return triangles(1, [](const carvel_tessellation *of, std::uint32_t *out,
+                               std::uint64_t count, carvel_error *error) {
+            return carvel_tessellation_triangles(of, nullptr, nullptr, out, count, error);
+        });
+    }
+    Result<std::vector<Sample>> try_places() const
+    {
+        return places<Sample>([](const carvel_tessellation *of, Sample *out, std::uint64_t count,
+                                 carvel_error *error) {
+            return carvel_tessellation_places(of, out, nullptr, count, error);
+        });
+    }
+    /* The vertex of each place. */
+    Result<std::vector<std::uint32_t>> try_place_vertices() const
+    {
+        return places<std::uint32_t>([](const carvel_tessellation *of, std::uint32_t *out,
+                                        std::uint64_t count, carvel_error *error) {
+            return carvel_tessellation_places(of, nullptr, out, count, error);
+        });
+    }
+
+    /* Three numbers for each vertex, or for each place, into your buffer. */
+    template <class O>
+    Result<void> try_positions(O &&out) const
+    {
+        const Values to = values(out);
+        detail::Call call;
+        call.status = detail::positions(get(), &to, call.error());
+        return call.result();
+    }
+    template <class O>
+    Result<void> try_normals(O &&out) const
+    {
+        const Values to = values(out);
+        detail::Call call;
+        call.status = detail::normals(get(), &to, call.error());
+        return call.result();
+    }
+
+#if CARVEL_HPP_THROWS
+    template <class V>
+    static Tessellation create(const Surface &surface, const V &control,
+                               const TessellationDesc &desc, const Context *context = nullptr)
+    {
+        return try_create(surface, control, desc, context).value();
+    }
+    TriangleCounts counts() const { return try_counts().value(); }
+    std::vector<std::uint32_t> triangles() const { return try_triangles().value(); }
+    std::vector<std::uint32_t> triangle_places() const { return try_triangle_places().value(); }
+    std::vector<std::uint32_t> faces() const { return try_faces().value(); }
+    std::vector<Sample> places() const { return try_places().value(); }
+    std::vector<std::uint32_t> place_vertices() const { return try_place_vertices().value(); }
+    template <class O>
+    void positions(O &&out) const
+    {
+        try_positions(out).value();
+    }
+    template <class O>
+    void normals(O &&out) const
+    {
+        try_normals(out).value();
+    }
+#endif
+
+private:
+    template <class T, class Get>
+    Result<std::vector<T>> fill(std::uint64_t size, std::uint64_t capacity, Get get_list) const
+    {
+        detail::Call call;
+        std::vector<T> out;
+        if (call.grow(out, size))
+            call.status = get_list(get(), out.data(), capacity, call.error());
+        return call.result(std::move(out));
+    }
+
+    template <class Get>
+    Result<std::vector<std::uint32_t>> triangles(std::uint64_t each, Get get_list) const
+    {
+        const Result<TriangleCounts> counts = try_counts();
+        if (!counts)
+            return counts.error();
+        return fill<std::uint32_t>(each * counts->triangles, counts->triangles, get_list);
+    }
+
+    template <class T, class Get>
+    Result<std::vector<T>> places(Get get_list) const
+    {
+        const Result<TriangleCounts> counts = try_counts();
+        if (!counts)
+            return counts.error();
+        return fill<T>(counts->places, counts->places, get_list);
+    }
 };
 
 /* ==========================================================================

@@ -37,6 +37,7 @@ mod scheme;
 mod status;
 mod stencils;
 mod surface;
+mod tessellation;
 mod values;
 mod versioned;
 
@@ -55,4 +56,5 @@ pub use scheme::*;
 pub use status::*;
 pub use stencils::*;
 pub use surface::*;
+pub use tessellation::*;
 pub use values::*;

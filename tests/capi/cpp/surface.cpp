@@ -38,5 +38,23 @@ int main()
     const auto refused = surface.try_evaluate(outside, CARVEL_DERIVATIVES_NONE, control, again);
     CHECK(refused.error().status() == CARVEL_STATUS_PARAMETER_OUT_OF_RANGE);
     CHECK(!surface.try_stencils(outside, CARVEL_DERIVATIVES_NONE));
+
+    carvel::TessellationDesc fine;
+    fine.tolerance = 0.02;
+    const carvel::Tessellation made = carvel::Tessellation::create(surface, control, fine);
+    const carvel::TriangleCounts sizes = made.counts();
+    CHECK(sizes.triangles == 2 * (sizes.vertices - 2) && sizes.measure <= 0.02);
+    const std::vector<std::uint32_t> triangles = made.triangles(), vertices = made.place_vertices();
+    CHECK(triangles.size() == 3 * sizes.triangles && made.faces().size() == sizes.triangles);
+    CHECK(vertices[made.triangle_places()[7]] == triangles[7]);
+    CHECK(made.places().size() == sizes.places);
+    std::vector<double> positions(3 * sizes.vertices);
+    made.positions(positions);
+    std::vector<std::array<float, 3>> normals(sizes.places);
+    made.normals(normals);
+    CHECK(positions[2] > -1 && std::fabs(normals[0][0]) <= 1);
+    fine.tolerance = -1;
+    const auto negative = carvel::Tessellation::try_create(surface, control, fine);
+    CHECK(negative.error().status() == CARVEL_STATUS_PARAMETER_OUT_OF_RANGE);
     std::puts("surface: ok");
 }

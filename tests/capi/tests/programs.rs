@@ -74,6 +74,11 @@ fn surfaces_are_evaluated_anywhere() {
 }
 
 #[test]
+fn surfaces_become_triangles() {
+    run_with_both("tessellation", &[]);
+}
+
+#[test]
 fn masks_answer_as_computed_by_hand() {
     run_with_both("mask", &[]);
 }
