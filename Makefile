@@ -39,6 +39,7 @@ lint: tools
 # Minutes of work: more random meshes, a large mesh, fuzzing.
 deep: tools
 	PROPTEST_CASES=512 CARVEL_PEER_LEVELS=5 $(CARGO) test --workspace --all-features --release --locked
+	$(CARGO) test --all-features --release --locked --test limit -- --ignored --nocapture
 	tests/capi/tsan.sh
 	$(CARGO) build --release --locked
 	mkdir -p out/deep

@@ -6,7 +6,7 @@
 //! corners, cut along the seams, whose vertices are the pairs (vertex, value).
 
 use super::build::several_fans;
-use super::{Joints, Mesh, Sharpness, VertexSet, joints};
+use super::{Joints, Layout, Mesh, Sharpness, VertexSet, joints};
 use crate::base::{Context, Element, Error, ErrorKind, NONE, Result, memory};
 
 /// How smooth the values of a channel are along its own boundaries: seams, and the
@@ -74,24 +74,8 @@ impl Channel {
         }
         let taken = in_mesh_order(mesh, indices, values)?;
         let (vert, source) = slots(mesh, &taken)?;
-        let mut cut = Mesh {
-            layout: mesh.layout.try_clone()?,
-            twin: twins(mesh, &vert)?,
-            vert,
-            start: memory::filled(NONE, source.len())?,
-            rim: Vec::new(),
-            special: Vec::new(),
-            special_set: VertexSet::default(),
-            near: None,
-            sharpness: Sharpness::default(),
-            joints: Joints::default(),
-            holes: Vec::new(),
-            runs: Vec::new(),
-            corner_tags: Vec::new(),
-            anchored: false,
-            refined: false,
-            face_source: None,
-        };
+        let twin = twins(mesh, &vert)?;
+        let mut cut = unfinished(mesh.layout.try_clone()?, vert, twin, source.len())?;
         cut.joints.sides = joints(mesh, &cut)?;
         let several = several_fans(&Context::serial(), &mut cut)?;
         joints::collect_fans(&mut cut, &several)?;
@@ -138,6 +122,26 @@ impl Channel {
         Err(Error::new(ErrorKind::LengthMismatch, "a face-varying channel belongs to another mesh"))
     }
 
+    /// The channel as a mesh of single fans: vertices of several are there several times. With the
+    /// channel's own number of each vertex.
+    ///
+    /// # Errors
+    /// [`ErrorKind::OutOfResources`].
+    pub(crate) fn apart(&self) -> Result<(Mesh, Vec<u32>)> {
+        let mut vert = memory::copied(&self.mesh.vert)?;
+        let mut own = memory::collect(0..self.source.len() as u32)?;
+        for &(v, start) in &self.mesh.joints.fans {
+            let copy = own.len() as u32;
+            memory::extend(&mut own, [v])?;
+            self.mesh.fan_from(start).for_each(|corner| vert[corner as usize] = copy);
+        }
+        let twin = memory::copied(&self.mesh.twin)?;
+        let mut mesh = unfinished(self.mesh.layout.try_clone()?, vert, twin, own.len())?;
+        several_fans(&Context::serial(), &mut mesh)?;
+        mesh.collect_lists()?;
+        Ok((mesh, own))
+    }
+
     /// The value that a corner takes, by the caller's number.
     pub(crate) fn taken(&self, corner: usize) -> u32 {
         self.source[self.mesh.vert[corner] as usize]
@@ -149,6 +153,28 @@ impl Mesh {
     pub(crate) fn is_boundary_edge(&self, corner: u32) -> bool {
         self.twin[corner as usize] == NONE && self.joints.leader(corner).is_none()
     }
+}
+
+/// A mesh whose fans and lists are to be found.
+fn unfinished(layout: Layout, vert: Vec<u32>, twin: Vec<u32>, vertices: usize) -> Result<Mesh> {
+    Ok(Mesh {
+        layout,
+        twin,
+        vert,
+        start: memory::filled(NONE, vertices)?,
+        rim: Vec::new(),
+        special: Vec::new(),
+        special_set: VertexSet::default(),
+        near: None,
+        sharpness: Sharpness::default(),
+        joints: Joints::default(),
+        holes: Vec::new(),
+        runs: Vec::new(),
+        corner_tags: Vec::new(),
+        anchored: false,
+        refined: false,
+        face_source: None,
+    })
 }
 
 /// The indices in the mesh's order of faces, all in range.

@@ -6,9 +6,9 @@
 //! inside the run loses its sharpness.
 
 use super::crease_rules::Surroundings;
-use super::{Boundary, PointSink, Scheme, SplitKind};
-use crate::base::{Error, ErrorKind, NONE, Result, Weight, memory};
-use crate::mesh::sharpness::INFINITE;
+use super::{Boundary, Creasing, PointSink, Scheme, SplitKind};
+use crate::base::{Element, Error, ErrorKind, NONE, Result, Weight, memory};
+use crate::mesh::sharpness::{INFINITE, Sharpness};
 use crate::mesh::{Channel, FaceVaryingMode, Mesh};
 use crate::refine::{Around, PrimalSplit, decrement};
 use std::borrow::Cow;
@@ -92,6 +92,70 @@ impl<'a> ChannelRules<'a> {
             memory::extend(&mut split, values.iter().zip(rules).map(|(&s, rule)| (v, s, rule)))?;
         }
         Ok(split)
+    }
+
+    /// The channel as a mesh, which of the caller's values each of its vertices is, and a scheme whose
+    /// own rules on that mesh are those of the values. What the channel's scheme says of boundaries is
+    /// said by the mesh.
+    ///
+    /// # Errors
+    /// As [`ChannelRules::check`]; [`ErrorKind::Unsupported`], naming the vertex, where values of
+    /// one vertex wait for each other or Chaikin's rule sees sharp edges beyond a seam;
+    /// [`ErrorKind::OutOfResources`].
+    pub(crate) fn as_mesh(
+        self,
+        mesh: &Mesh,
+        channel: &Channel,
+    ) -> Result<(Mesh, Vec<u32>, Scheme)> {
+        self.check()?;
+        let (mut cut, own) = channel.apart()?;
+        let split = self.split_values(mesh, &channel.mesh)?;
+        self.check_alone(mesh, &split)?;
+        let is_corner = |slot: u32| split_rule(&split, slot) == Some(SplitRule::Corner);
+        let linear = self.is_linear();
+        let sharpness = |vertex: u32| {
+            let slot = own[vertex as usize];
+            match cut.start[vertex as usize] {
+                NONE => 0.0,
+                _ if linear || is_corner(slot) => INFINITE,
+                corner => self.scheme.vertex_sharpness(mesh, mesh.vert[corner as usize]),
+            }
+        };
+        let vertices = (0..own.len() as u32).map(|v| (v, sharpness(v)));
+        let vertices = memory::collect(vertices.filter(|&(_, sharpness)| sharpness > 0.0))?;
+        let inside = |c: &u32| {
+            let twin = cut.twin[*c as usize];
+            twin != NONE && *c < twin
+        };
+        let edges = (0..cut.twin.len() as u32).filter(inside);
+        let edges = edges.map(|c| (c, if linear { INFINITE } else { mesh.edge_sharpness(c) }));
+        let edges = memory::collect(edges.filter(|&(_, sharpness)| sharpness > 0.0))?;
+        cut.sharpness = Sharpness { edges, vertices };
+        cut.holes = self.scheme.holes(mesh)?;
+        let values = memory::collect(own.iter().map(|&slot| channel.source[slot as usize]))?;
+        let scheme = match self.scheme.split() {
+            // Lines that a step draws in a face are no sharp edges.
+            SplitKind::Quad if linear => Scheme::primal(&[])?,
+            _ => self.scheme.clone().with_boundary(Boundary::Edge),
+        };
+        Ok((cut, values, scheme))
+    }
+
+    /// Refuses split values whose rules depend on what is beyond their seams.
+    fn check_alone(self, mesh: &Mesh, split: &[SplitValue]) -> Result<()> {
+        let passing = |sharpness: f32| sharpness > 0.0 && sharpness < INFINITE;
+        let chaikin = self.scheme.creasing() == Creasing::Chaikin;
+        let waits = |&&(v, _, rule): &&SplitValue| {
+            let edges = || mesh.fans(v).flat_map(|c| [c, mesh.prev(c)]);
+            rule == SplitRule::Dependent
+                || (chaikin && edges().any(|c| passing(mesh.edge_sharpness(c))))
+        };
+        let Some(&(v, ..)) = split.iter().find(waits) else { return Ok(()) };
+        let message = format!(
+            "at vertex {v} face-varying values depend on semi-sharp edges beyond a seam: \
+             their surface is not evaluated"
+        );
+        Err(Error::new(ErrorKind::Unsupported, message).with_elements([Element::Vertex(v.into())]))
     }
 
     /// The vertices with a seam or another reason for rules of their own.
@@ -277,6 +341,13 @@ impl<'a> ChannelRules<'a> {
         Surroundings::inside(self.inside(mesh, channel, slot), before, self.scheme.creasing())
             .weight()
     }
+}
+
+/// The rule of a value, if it is split.
+fn split_rule(split: &[SplitValue], slot: u32) -> Option<SplitRule> {
+    // Numbers ascend with vertices.
+    let at = split.binary_search_by_key(&slot, |&(_, slot, _)| slot).ok()?;
+    Some(split[at].2)
 }
 
 /// The run of faces of a value at a vertex.

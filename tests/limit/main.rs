@@ -1,5 +1,7 @@
 //! The limit surface at any point, against closed forms, refinement and itself.
 
+mod channels;
+mod convergence;
 mod derivatives;
 mod points;
 mod refusals;

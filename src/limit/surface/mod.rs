@@ -34,8 +34,8 @@ mod univariate;
 mod vicinity;
 
 use crate::base::{Context, Element, Error, ErrorKind, NONE, Result, Scalar, memory};
-use crate::mesh::Mesh;
-use crate::scheme::{Method, Scheme};
+use crate::mesh::{Channel, Mesh};
+use crate::scheme::{ChannelRules, Method, Scheme};
 use cell::{Kind, Map};
 use evaluation::{Cell, PARTIALS, Patches, Scratch, Start};
 use nodes::{Builder, Node};
@@ -132,8 +132,10 @@ pub struct Surface {
     nodes: Vec<Node>,
     /// For each corner.
     roots: Vec<Root>,
-    /// Control vertices of cells.
+    /// Control vertices of cells, or values of a channel.
     points: Vec<u32>,
+    /// How many of these there are in all.
+    columns: usize,
     /// Faces without a surface.
     holes: Vec<u32>,
 }
@@ -181,10 +183,55 @@ impl Surface {
         let nodes = builder.finish(context)?;
         let holes = scheme.holes(mesh)?;
         let (mesh, method) = (Arc::clone(mesh), scheme.method());
-        Ok(Self { mesh, method, univariate, window, nodes, roots, points, holes })
+        let columns = mesh.vertices();
+        Ok(Self { mesh, method, univariate, window, nodes, roots, points, columns, holes })
     }
 
-    /// The control mesh.
+    /// The surface of face-varying values, such as texture coordinates: samples are as on the
+    /// surface of the mesh, values those of the channel, continuous but across seams. The same
+    /// as refining the channel for ever.
+    ///
+    /// # Errors
+    /// As [`Surface::new`]; [`ErrorKind::LengthMismatch`] for a channel of another mesh;
+    /// [`ErrorKind::Unsupported`] for a scheme without rules for such values, and where values of a
+    /// vertex depend on semi-sharp edges beyond a seam
+    /// ([`crate::FaceVaryingMode::CornersPlus1`] and [`crate::FaceVaryingMode::CornersPlus2`], or Chaikin's rule),
+    /// naming the vertex.
+    ///
+    /// # Example
+    /// ```
+    /// use carvel::limit::{Derivatives, Sample, Surface};
+    /// use carvel::{Channel, Context, FaceVaryingMode, Mesh, Scheme};
+    /// // Two quads with a seam between them.
+    /// let mesh = Mesh::from_polygons(6, &[4, 4], &[0, 1, 4, 3, 1, 2, 5, 4])?;
+    /// let indices = [0, 1, 2, 3, 4, 5, 6, 7];
+    /// let channel = Channel::new(&mesh, &indices, 8, FaceVaryingMode::Boundaries)?;
+    /// let (context, scheme) = (Context::serial(), Scheme::catmull_clark());
+    /// let surface = Surface::of_channel(&context, &mesh, &channel, &scheme)?;
+    /// let uvs = [0.0, 0.0, 1.0, 0.0, 1.0, 1.0, 0.0, 1.0, 5.0, 0.0, 6.0, 0.0, 6.0, 1.0, 5.0, 1.0];
+    /// let on_seam = Sample { face: 1, sector: 0, u: 0.0, v: 0.5 };
+    /// let mut uv = [0.0; 2];
+    /// surface.evaluate(&context, &[on_seam], &uvs, 2, Derivatives::None, &mut uv)?;
+    /// assert_eq!(uv, [5.0, 0.5]);
+    /// # Ok::<(), carvel::Error>(())
+    /// ```
+    pub fn of_channel(
+        context: &Context,
+        mesh: &Mesh,
+        channel: &Channel,
+        scheme: &Scheme,
+    ) -> Result<Self> {
+        channel.check_mesh(mesh)?;
+        scheme.check(mesh)?;
+        let rules = ChannelRules::new(scheme, channel.mode());
+        let (cut, values, scheme) = rules.as_mesh(mesh, channel)?;
+        let mut surface = Self::new(context, &Arc::new(cut), &scheme)?;
+        surface.points.iter_mut().for_each(|point| *point = values[*point as usize]);
+        surface.columns = channel.values();
+        Ok(surface)
+    }
+
+    /// The control mesh; that of a channel is cut along the seams.
     pub fn mesh(&self) -> &Arc<Mesh> {
         &self.mesh
     }
@@ -275,9 +322,8 @@ impl Surface {
         record: usize,
         out: &[T],
     ) -> Result<()> {
-        let vertices = self.mesh.vertices();
         for (what, len, count, width) in [
-            ("values", values.len(), vertices, width),
+            ("values", values.len(), self.columns, width),
             ("output", out.len(), samples.len(), record),
         ] {
             if Some(len) != count.checked_mul(width) {

@@ -56,7 +56,7 @@ impl Surface {
     ) -> Result<StencilTable<T>> {
         let records = derivatives.records();
         let rows = samples.len().saturating_mul(records);
-        let columns = self.mesh.vertices();
+        let columns = self.columns;
         let nothing = || Ok(Last { sample: None, weights: Vec::new(), row: Vec::new() });
         assemble(context, rows, columns, nothing, |last, row, out| {
             let (sample, record) = (row / records, row % records);
