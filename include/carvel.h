@@ -1689,6 +1689,19 @@ CARVEL_API carvel_status carvel_surface_create(const carvel_context *context,
                                                const carvel_scheme *scheme,
                                                carvel_surface **out, carvel_error *error);
 
+/* The surface of a channel's values, such as texture coordinates: samples are as on the
+ * surface of the channel's mesh, values those of the channel, continuous but across seams: a
+ * record for each value where that surface takes one for each vertex. The same as refining the
+ * channel for ever. The channel is not needed afterwards.
+ * Errors: NULL_POINTER, MISALIGNED; as carvel_surface_create; UNSUPPORTED for a scheme without
+ * rules for such values, and, naming the vertex, where values depend on semi-sharp edges
+ * beyond a seam. */
+CARVEL_API carvel_status carvel_surface_create_channel(const carvel_context *context,
+                                                       const carvel_channel *channel,
+                                                       const carvel_scheme *scheme,
+                                                       carvel_surface **out,
+                                                       carvel_error *error);
+
 /* Destroys a surface. NULL is allowed. */
 CARVEL_API void carvel_surface_destroy(carvel_surface *surface);
 

@@ -2171,6 +2171,17 @@ public:
         return call.result(Surface(out));
     }
 
+    /* The surface of values at corners. */
+    static Result<Surface> try_create(const Channel &channel, const Scheme &scheme,
+                                      const Context *context = nullptr)
+    {
+        detail::Call call;
+        carvel_surface *out = nullptr;
+        call.status = carvel_surface_create_channel(detail::raw(context), channel.get(),
+                                                    scheme.get(), &out, call.error());
+        return call.result(Surface(out));
+    }
+
     /* 1, or one for each corner of a face. */
     Result<std::uint32_t> try_sectors(std::uint32_t face) const
     {
@@ -2213,6 +2224,11 @@ public:
     static Surface create(const Mesh &mesh, const Scheme &scheme, const Context *context = nullptr)
     {
         return try_create(mesh, scheme, context).value();
+    }
+    static Surface create(const Channel &channel, const Scheme &scheme,
+                          const Context *context = nullptr)
+    {
+        return try_create(channel, scheme, context).value();
     }
     std::uint32_t sectors(std::uint32_t face) const { return try_sectors(face).value(); }
     template <class V, class O>

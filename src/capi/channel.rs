@@ -18,7 +18,7 @@ object!(carvel_channel, Bound);
 /// A channel and the mesh that it was made for.
 pub(super) struct Bound {
     pub(super) channel: Channel,
-    mesh: Arc<Mesh>,
+    pub(super) mesh: Arc<Mesh>,
 }
 
 impl Bound {

@@ -6,7 +6,9 @@ use super::object::{destroy_function, object};
 use super::status::{Fault, Result, carvel_status};
 use super::stencils::{CARVEL_PRECISION_F32, CARVEL_PRECISION_F64};
 use super::values::{ConstValues, Values};
-use super::{carvel_context, carvel_error, carvel_mesh, carvel_scheme, carvel_stencils};
+use super::{
+    carvel_channel, carvel_context, carvel_error, carvel_mesh, carvel_scheme, carvel_stencils,
+};
 use crate::base::{Context, Scalar};
 use crate::limit::{Derivatives, Sample, Surface};
 use crate::sparse::StoredTable;
@@ -60,7 +62,7 @@ unsafe fn evaluate_values<T: Scalar>(
     which: Derivatives,
     (values, out): (ConstValues<T>, Values<T>),
 ) -> Result<()> {
-    let from = values.check(surface.mesh().vertices() as u64, "values".into())?;
+    let from = values.check(surface.columns() as u64, "values".into())?;
     // No array of samples is so long that this could overflow.
     let records = samples.len() as u64 * which.records() as u64;
     let to = out.check(records, from.width, "out".into())?;
@@ -104,6 +106,26 @@ pub unsafe extern "C" fn carvel_surface_create(
                 let context = call.context(context)?;
                 let (mesh, scheme) = (call.object(mesh)?, call.object(scheme)?);
                 Ok(Surface::new(&context, &Arc::clone(&mesh.mesh), scheme)?)
+            })
+        })
+    }
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn carvel_surface_create_channel(
+    context: *const carvel_context,
+    channel: *const carvel_channel,
+    scheme: *const carvel_scheme,
+    out: *mut *mut carvel_surface,
+    error: *mut carvel_error,
+) -> carvel_status {
+    // SAFETY: the header's contract.
+    unsafe {
+        call(error, |call| {
+            call.create(out, |call| {
+                let context = call.context(context)?;
+                let (bound, scheme) = (call.object(channel)?, call.object(scheme)?);
+                Ok(Surface::of_channel(&context, &bound.mesh, &bound.channel, scheme)?)
             })
         })
     }

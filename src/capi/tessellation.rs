@@ -115,7 +115,7 @@ unsafe fn cut<T: Scalar>(
     positions: ConstValues<T>,
     options: &TessellateOptions,
 ) -> Result<Tessellation> {
-    let from = positions.check(surface.mesh().vertices() as u64, "positions".into())?;
+    let from = positions.check(surface.columns() as u64, "positions".into())?;
     if from.width != WIDTH {
         let message = format!("positions: the width is {}, not {WIDTH}", from.width);
         return Err(Fault::new(CARVEL_STATUS_LENGTH_MISMATCH, message));

@@ -184,3 +184,40 @@ fn info_counts_seams() {
     let run = Bench::new().run(&format!("info {COW}")).ok();
     assert!(run.out_text().contains("seams             72 edges"), "{}", run.out_text());
 }
+
+/// Adaptive triangles have the seams of the control mesh and no others.
+#[test]
+fn seams_survive_tessellation() {
+    let bench = Bench::new();
+    // Bare faces among them.
+    let bare = FACES.replace("f 3/3 4/4 8/8 7/7", "f 3 4 8 7");
+    bench.put("rows.obj", seamed(FACES)).put("bare.obj", seamed(&bare));
+    let corners = |mesh: &MeshFile, check: &dyn Fn([f64; 3], Option<[f64; 2]>)| {
+        let uvs = mesh.face_uvs.as_ref().expect("texture coordinates");
+        for (&v, &uv) in mesh.face_vertices.iter().zip(uvs) {
+            let uv = (uv != NONE).then(|| mesh.uvs[uv as usize]);
+            check(mesh.positions[v as usize], uv);
+        }
+    };
+    for (file, seams, scheme) in [("rows", 3, "bilinear"), ("bare", 3, "bilinear")] {
+        let call = format!("tessellate {file}.obj -o out.obj --scheme {scheme} --tolerance 0.1");
+        let run = bench.run(&call).ok();
+        assert!(!run.err.contains("dropped"), "{}", run.err);
+        let mesh = bench.mesh("out.obj");
+        corners(&mesh, &|[x, y, _], uv| match uv {
+            Some([u, v]) => assert!((v - y).abs() < 1e-6 && ((u - x) / 10.0).fract().abs() < 1e-6),
+            None => assert!(file == "bare" && x >= 2.0 && y <= 1.0, "{x} {y}"),
+        });
+        if file == "rows" {
+            assert_eq!(seam_edges(&mesh), seams);
+        }
+    }
+    let call = format!("tessellate {COW} -o cow.obj --scheme catmull-clark --relative 3e-3");
+    bench.run(&call).ok();
+    let (before, after) = (bench.mesh(COW), bench.mesh("cow.obj"));
+    // Each seam edge is one edge at least, and the largest of them have become several.
+    let [before, after] = [&before, &after].map(seam_edges);
+    assert!(after > before && after < 16 * before, "{before} {after}");
+    let refused = bench.run("tessellate rows.obj -o no.obj --scheme quartic --tolerance 0.1").ok();
+    assert!(refused.err.contains("dropped the texture coordinates"), "{}", refused.err);
+}

@@ -180,7 +180,9 @@ fn holes_stay_holes_and_what_has_no_surface_is_refused() {
     for (mode, scheme) in
         [(CornersPlus1, smooth.clone()), (Corners, smooth.clone().with_creasing(Creasing::Chaikin))]
     {
-        let error = of(&creased, mode, &scheme).err().expect("an error");
+        let Err(error) = of(&creased, mode, &scheme) else {
+            panic!("a surface in spite of {mode:?}")
+        };
         assert_eq!(error.kind(), ErrorKind::Unsupported);
         assert!(matches!(error.elements(), [Element::Vertex(_)]), "{error}");
     }

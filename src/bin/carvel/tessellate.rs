@@ -15,6 +15,7 @@ use crate::session::Session;
 use crate::subdivide::{create, not_manifold, timed};
 use crate::tags;
 use crate::text::{counted, grouped, path_name};
+use crate::texture::Texture;
 use crate::topology::Asked;
 use carvel::base::Context;
 use carvel::io::{self, MeshFile, WriteOptions};
@@ -23,7 +24,7 @@ use carvel::limit::{
 };
 use carvel::mesh::Built;
 use carvel::scheme::SplitKind;
-use carvel::{Boundary, Result as KernelResult};
+use carvel::{Boundary, ErrorKind, Result as KernelResult};
 use serde_json::{Map, Value, json};
 use std::time::Instant;
 
@@ -283,8 +284,25 @@ impl Work<'_> {
         surface: &Surface,
         made: &mut Tessellation,
     ) -> KernelResult<(MeshFile, Vec<String>)> {
-        let load = Load::of(self.control, self.built.vertex_source.as_deref(), true);
+        let Self { control, built, chosen } = *self;
+        let features = chosen.has_features();
+        let texture = if features { Texture::of(control, &built.mesh, chosen.uv)? } else { None };
+        let load = Load::of(control, built.vertex_source.as_deref(), texture.is_none());
         context.check_memory(file_bytes(made, load.width()))?;
+        let mut notes: Vec<String> = load.dropped.iter().cloned().collect();
+        let on_surface = |texture: &Texture| match texture.on_surface(
+            context,
+            &built.mesh,
+            &chosen.scheme,
+            made,
+        ) {
+            Err(error) if error.kind() == ErrorKind::Unsupported => {
+                notes.push(format!("dropped the texture coordinates ({error})"));
+                Ok(None)
+            }
+            refined => refined.map(Some),
+        };
+        let refined = texture.as_ref().map(on_surface).transpose()?.flatten();
         let samples = first_places(made)?;
         let mut file = MeshFile {
             face_sizes: memory::zeroed(3, made.triangles.len() as u64)?,
@@ -299,12 +317,16 @@ impl Work<'_> {
             Ok(values)
         });
         let columns = columns.collect::<KernelResult<Vec<_>>>()?;
-        let source = |&face: &u32| self.built.mesh.face_source(face as usize) as u32;
+        let source = |&face: &u32| built.mesh.face_source(face as usize) as u32;
         let faces: Vec<u32> = made.faces.iter().map(source).collect();
-        carry::inherit(self.control, &faces, &mut file);
-        carry::unload(&load, columns, self.control, &mut file);
+        carry::inherit(control, &faces, &mut file);
+        carry::unload(&load, columns, control, &mut file);
+        if let (Some(texture), Some(refined)) = (&texture, refined) {
+            texture.unload(refined, &faces, &mut file);
+        }
+        notes.extend(texture.and_then(|texture| texture.note));
         normals(made, samples.len(), &mut file)?;
-        Ok((file, load.dropped.into_iter().collect()))
+        Ok((file, notes))
     }
 }
 
@@ -316,7 +338,8 @@ fn file_bytes(made: &Tessellation, width: u64) -> u64 {
     let sample = size_of::<Sample>() as u64;
     // A column is there twice as it is put into the file.
     let of_vertex = point + sample + 16 * width;
-    let of_place = sample + index + 2 * point;
+    // With texture coordinates, their numbers and order.
+    let of_place = sample + index + 2 * point + 16 + 16 + 2 * index;
     // Vertices, places, face; then size, normals, the columns' indices, labels.
     let of_triangle = 7 * index + 9 * index;
     count(made.positions.len()) * of_vertex

@@ -10,7 +10,8 @@ use crate::records::Kept;
 use carvel::base::NONE;
 use carvel::hierarchy::ChannelOutput;
 use carvel::io::MeshFile;
-use carvel::{Channel, FaceVaryingMode, Mesh, Prediction, Result, Scheme};
+use carvel::limit::{Derivatives, Surface, Tessellation};
+use carvel::{Channel, Context, FaceVaryingMode, Mesh, Prediction, Result, Scheme};
 
 /// The texture coordinates of a control mesh.
 #[derive(Debug)]
@@ -52,6 +53,32 @@ impl Texture {
         Ok(Some(Self { channel, values, bare: some.then_some(bare), note }))
     }
 
+    /// Those of triangles on the surface: what is the same on both sides of an edge has one number.
+    ///
+    /// # Errors
+    /// As [`Surface::of_channel`] and [`Surface::evaluate`]; if the system has no room.
+    pub fn on_surface(
+        &self,
+        context: &Context,
+        mesh: &Mesh,
+        scheme: &Scheme,
+        made: &Tessellation,
+    ) -> Result<Refined<f64>> {
+        let surface = Surface::of_channel(context, mesh, &self.channel, scheme)?;
+        let places = made.places.len() as u64;
+        let mut values = zeroed(0.0, 2 * places)?;
+        let none = Derivatives::None;
+        surface.evaluate(context, &made.places, &self.values, 2, none, &mut values)?;
+        let mut numbers = zeroed(NONE, places)?;
+        let kept = join(&made.place_vertices, &mut values, &mut numbers)?;
+        values.truncate(2 * kept);
+        let mut indices = zeroed(0, 3 * made.triangle_places.len() as u64)?;
+        for (index, &place) in indices.iter_mut().zip(made.triangle_places.as_flattened()) {
+            *index = numbers[place as usize];
+        }
+        Ok(Refined { indices, values })
+    }
+
     /// Puts refined coordinates into the refined file; `faces` gives the control file's
     /// face for every refined one.
     pub fn unload(&self, refined: Refined<f64>, faces: &[u32], file: &mut MeshFile) {
@@ -89,6 +116,40 @@ fn bare_faces(file: &MeshFile, indices: &mut [u32]) -> (Vec<bool>, usize) {
         missing > 0
     });
     (bare.collect(), partly)
+}
+
+/// Coordinates that are nearer than this part of the largest are the same.
+const SAME: f64 = 1e-9;
+
+/// Numbers the pairs of values of places, those of a vertex that are the same once, and moves them
+/// to their numbers. Returns how many there are.
+fn join(vertices: &[u32], values: &mut [f64], numbers: &mut [u32]) -> Result<usize> {
+    let largest = values.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+    let pair = |values: &[f64], place: usize| [values[2 * place], values[2 * place + 1]];
+    let same = |a: [f64; 2], b: [f64; 2]| (0..2).all(|k| (a[k] - b[k]).abs() <= SAME * largest);
+    let mut order = zeroed(0_u32, vertices.len() as u64)?;
+    order.iter_mut().zip(0..).for_each(|(place, i)| *place = i);
+    order.sort_unstable_by_key(|&place| (vertices[place as usize], place));
+    for at_vertex in order.chunk_by(|a, b| vertices[*a as usize] == vertices[*b as usize]) {
+        for (i, &place) in at_vertex.iter().enumerate() {
+            let mut before = at_vertex[..i].iter().copied();
+            let here = pair(values, place as usize);
+            let first = before.find(|&other| same(pair(values, other as usize), here));
+            // The first place that has them, while they have no numbers.
+            numbers[place as usize] = first.unwrap_or(place);
+        }
+    }
+    let mut count = 0;
+    for place in 0..vertices.len() {
+        let first = numbers[place] as usize;
+        numbers[place] = if first == place { count as u32 } else { numbers[first] };
+        if first == place {
+            let here = pair(values, place);
+            values[2 * count..][..2].copy_from_slice(&here);
+            count += 1;
+        }
+    }
+    Ok(count)
 }
 
 /// Refined texture coordinates.

@@ -236,6 +236,11 @@ impl Surface {
         &self.mesh
     }
 
+    /// The records that it is evaluated from: control vertices, or values of a channel.
+    pub fn columns(&self) -> usize {
+        self.columns
+    }
+
     /// Sectors of a face: 1, or one for each corner.
     ///
     /// # Panics

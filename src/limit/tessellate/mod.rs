@@ -204,7 +204,7 @@ pub fn tessellate<T: Scalar>(
     context.report(0.0)?;
     let mut positions = checked(surface, positions)?;
     let scale = exponent(&positions);
-    positions.iter_mut().for_each(|x| *x = libm::scalbn(*x, -scale));
+    scale_by(&mut positions, -scale);
     let roots = roots(surface)?;
     let goal = goal(options, scale);
     let Leaves { cells, largest, coarse, missing } =
@@ -228,7 +228,7 @@ pub fn tessellate<T: Scalar>(
             measure::longest_in_view((matrix, *half), &made.positions, &made.triangles)
         }
     };
-    made.positions.as_flattened_mut().iter_mut().for_each(|x| *x = libm::scalbn(*x, scale));
+    scale_by(made.positions.as_flattened_mut(), scale);
     Ok(made)
 }
 
@@ -239,9 +239,15 @@ fn exponent(positions: &[f64]) -> i32 {
     if largest > 0.0 { libm::ilogb(largest) } else { 0 }
 }
 
+fn scale_by(coordinates: &mut [f64], exponent: i32) {
+    for x in coordinates {
+        *x = libm::scalbn(*x, exponent);
+    }
+}
+
 /// Positions in double precision.
 fn checked<T: Scalar>(surface: &Surface, positions: &[T]) -> Result<Vec<f64>> {
-    let vertices = surface.mesh().vertices();
+    let vertices = surface.columns();
     if positions.len() != 3 * vertices {
         let message = format!("{} numbers for {vertices} positions", positions.len());
         return Err(Error::new(ErrorKind::LengthMismatch, message));

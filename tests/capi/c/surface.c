@@ -196,6 +196,65 @@ static void check_strides(const fixture *with)
     free(values);
 }
 
+/* ------------------------------------------------------------------- channels */
+
+/* Two quads with a seam: across it values jump, along it they are those of either side. A
+ * surface outlives its channel. */
+static void check_channel(void)
+{
+    static const uint32_t indices[8] = {0, 1, 2, 3, 4, 5, 6, 7};
+    static const double values[8 * 2] = {0, 0, 1, 0, 1, 1, 0, 1, 5, 0, 6, 0, 6, 1, 5, 1};
+    poly *soup = poly_grid(2, 1);
+    carvel_mesh *mesh = poly_mesh(soup);
+    carvel_scheme *scheme = scheme_of(CARVEL_SCHEME_CATMULL_CLARK, 0);
+    carvel_scheme *other = scheme_of(CARVEL_SCHEME_QUARTIC, 0);
+    carvel_channel *channel = NULL;
+    carvel_channel_desc desc;
+    carvel_surface *surface = NULL;
+    carvel_sample samples[2];
+    carvel_const_values_f64 from;
+    double uvs[2 * 2];
+    carvel_values_f64 to;
+    uint32_t sectors = 0;
+    CHECK_OK(carvel_channel_desc_init(&desc, sizeof desc));
+    desc.mode = CARVEL_FACE_VARYING_ALL;
+    desc.indices = indices;
+    desc.index_count = 8;
+    desc.value_count = 8;
+    CHECK_OK(carvel_channel_create(mesh, &desc, &channel, failure));
+    CHECK_STATUS(CARVEL_STATUS_UNSUPPORTED,
+                 carvel_surface_create_channel(NULL, channel, other, &surface, failure));
+    CHECK_STATUS(CARVEL_STATUS_NULL_POINTER,
+                 carvel_surface_create_channel(NULL, NULL, scheme, &surface, failure));
+    CHECK_STATUS(CARVEL_STATUS_NULL_POINTER,
+                 carvel_surface_create_channel(NULL, channel, scheme, NULL, failure));
+    CHECK(surface == NULL);
+    CHECK_OK(carvel_surface_create_channel(NULL, channel, scheme, &surface, failure));
+    carvel_channel_destroy(channel);
+    CHECK_OK(carvel_surface_sectors(surface, 1, &sectors, failure));
+    CHECK_UINT(1, sectors);
+    samples[0] = sample_at(0, 0, 1, 0.5);
+    samples[1] = sample_at(1, 0, 0.25, 0.5);
+    from.data = values;
+    from.count = 8;
+    from.width = to.width = 2;
+    from.stride = to.stride = 0;
+    to.data = uvs;
+    to.count = 2;
+    CHECK_OK(carvel_surface_evaluate_f64(surface, NULL, samples, 2, CARVEL_DERIVATIVES_NONE,
+                                         &from, &to, failure));
+    CHECK(uvs[0] == 1 && uvs[1] == 0.5 && uvs[2] == 5.25 && uvs[3] == 0.5);
+    from.count = 6;
+    CHECK_STATUS(CARVEL_STATUS_LENGTH_MISMATCH,
+                 carvel_surface_evaluate_f64(surface, NULL, samples, 2, CARVEL_DERIVATIVES_NONE,
+                                             &from, &to, failure));
+    carvel_surface_destroy(surface);
+    carvel_scheme_destroy(other);
+    carvel_scheme_destroy(scheme);
+    carvel_mesh_destroy(mesh);
+    poly_free(soup);
+}
+
 /* -------------------------------------------------------------------- tables */
 
 static void check_table(const fixture *with, int32_t derivatives, uint64_t records)
@@ -379,5 +438,6 @@ int main(void)
     check_cube();
     check_lifetimes();
     check_sectors();
+    check_channel();
     return check_end();
 }

@@ -39,6 +39,16 @@ int main()
     CHECK(refused.error().status() == CARVEL_STATUS_PARAMETER_OUT_OF_RANGE);
     CHECK(!surface.try_stencils(outside, CARVEL_DERIVATIVES_NONE));
 
+    std::vector<std::uint32_t> corners(16);
+    for (std::uint32_t i = 0; i < 16; i++)
+        corners[i] = i;
+    const carvel::Channel channel = carvel::Channel::create(mesh, corners, 16);
+    const carvel::Surface islands = carvel::Surface::create(channel, scheme);
+    std::vector<double> own(16, 3.0), at_samples(2);
+    islands.evaluate(samples, CARVEL_DERIVATIVES_NONE, carvel::values(own, 1),
+                     carvel::values(at_samples, 1));
+    CHECK(std::fabs(at_samples[0] - 3) < 1e-13 && std::fabs(at_samples[1] - 3) < 1e-13);
+
     carvel::TessellationDesc fine;
     fine.tolerance = 0.02;
     const carvel::Tessellation made = carvel::Tessellation::create(surface, control, fine);
