@@ -102,6 +102,7 @@ using Bytes = carvel_bytes;
 using Seconds = carvel_seconds;
 using Counts = carvel_counts;
 using MaskAnalysis = carvel_mask_analysis;
+using ParameterRange = carvel_parameter_range;
 using PolygonCounts = carvel_polygon_counts;
 using Element = carvel_element;
 using Fraction = carvel_fraction;
@@ -2198,6 +2199,12 @@ public:
  * Mask: a scheme of polygons, and what is proved of it
  * ========================================================================== */
 
+/* Values at (first + i) / arity^levels; outside of them the function is 0. */
+struct LimitSamples {
+    std::int64_t first = 0;
+    std::vector<double> values;
+};
+
 class Mask : public detail::Handle<carvel_mask, detail::destroy> {
 public:
     using Handle::Handle;
@@ -2210,6 +2217,16 @@ public:
         detail::Call call;
         carvel_mask *out = nullptr;
         call.status = carvel_mask_create(text, arity, &out, call.error());
+        return call.result(Mask(out));
+    }
+
+    /* Coefficients with the index of the first. */
+    static Result<Mask> try_create_with_offset(const char *text, std::uint32_t arity,
+                                               std::int64_t offset)
+    {
+        detail::Call call;
+        carvel_mask *out = nullptr;
+        call.status = carvel_mask_create_with_offset(text, arity, offset, &out, call.error());
         return call.result(Mask(out));
     }
 
@@ -2240,6 +2257,23 @@ public:
         MaskAnalysis analysis = detail::sized<MaskAnalysis>();
         call.status = carvel_mask_analyse(get(), detail::raw(context), &analysis, call.error());
         return call.result(analysis);
+    }
+
+    /* The limit function, or a derivative, at multiples of arity^-levels. */
+    Result<LimitSamples> try_sample_limit(std::uint32_t levels, std::uint32_t derivative = 0,
+                                          const Context *context = nullptr) const
+    {
+        detail::Call call;
+        LimitSamples out;
+        std::uint64_t count = 0;
+        const auto sample = [&](double *values, std::uint64_t capacity) {
+            return carvel_mask_sample_limit(get(), detail::raw(context), derivative, levels,
+                                            &out.first, values, capacity, &count, call.error());
+        };
+        call.status = sample(nullptr, 0);
+        if (call.status == CARVEL_STATUS_OK && call.grow(out.values, count))
+            call.status = sample(out.values.data(), count);
+        return call.result(std::move(out));
     }
 
     /* Points and ends after some steps. */
@@ -2331,7 +2365,16 @@ public:
     {
         return try_create(text, arity).value();
     }
+    static Mask create_with_offset(const char *text, std::uint32_t arity, std::int64_t offset)
+    {
+        return try_create_with_offset(text, arity, offset).value();
+    }
     std::vector<Fraction> coefficients() const { return try_coefficients().value(); }
+    LimitSamples sample_limit(std::uint32_t levels, std::uint32_t derivative = 0,
+                              const Context *context = nullptr) const
+    {
+        return try_sample_limit(levels, derivative, context).value();
+    }
     Scheme scheme() const { return try_scheme().value(); }
     MaskAnalysis analyse(const Context *context = nullptr) const
     {
@@ -2400,6 +2443,95 @@ private:
         return call.result(std::move(out));
     }
 };
+
+/* ==========================================================================
+ * catalogue: the schemes of polygons that have names
+ *
+ * Texts stay as long as the library is loaded.
+ * ========================================================================== */
+
+/* A parameter of a family: see carvel_catalogue_parameter. */
+struct CatalogueParameter {
+    const char *name;
+    const char *range;
+    const char *default_value;
+    bool is_free;
+};
+
+/* A scheme by name: see carvel_catalogue_entry. */
+struct CatalogueEntry {
+    const char *name;
+    const char *summary;
+    const char *authors;
+    const char *year;
+    const char *formula;
+    const char *attribution;
+    /* Empty if it is stationary. */
+    const char *limit;
+    bool is_stationary;
+    std::vector<CatalogueParameter> parameters;
+};
+
+/* The scheme of an index below carvel_catalogue_count(). */
+inline Result<CatalogueEntry> try_catalogue_entry(std::uint64_t index)
+{
+    detail::Call call;
+    auto entry = detail::sized<carvel_catalogue_entry>();
+    call.status = carvel_catalogue_entry_at(index, &entry, call.error());
+    CatalogueEntry out = {entry.name,    entry.summary,     entry.authors, entry.year,
+                          entry.formula, entry.attribution, entry.limit,   entry.is_stationary != 0,
+                          {}};
+    if (call.status == CARVEL_STATUS_OK && call.grow(out.parameters, entry.parameter_count)) {
+        auto parameter = detail::sized<carvel_catalogue_parameter>();
+        for (std::uint64_t i = 0; i < entry.parameter_count && call.status == CARVEL_STATUS_OK;
+             ++i) {
+            call.status = carvel_catalogue_parameter_at(index, i, &parameter, call.error());
+            out.parameters[i] = {parameter.name, parameter.range, parameter.default_value,
+                                 parameter.is_free != 0};
+        }
+    }
+    return call.result(std::move(out));
+}
+
+/* For which values of a parameter the schemes of a family are C^`continuity`. */
+inline Result<std::vector<ParameterRange>>
+try_catalogue_ranges(const char *name, const char *parameter, std::uint32_t continuity,
+                     Fraction low, Fraction high, Fraction tolerance,
+                     const Context *context = nullptr)
+{
+    /* More than families have, so that the search is not made twice. */
+    constexpr std::uint64_t most = 32;
+    detail::Call call;
+    std::vector<ParameterRange> out;
+    std::uint64_t count = 0;
+    const auto search = [&] {
+        return carvel_catalogue_ranges(name, parameter, detail::raw(context), continuity, low,
+                                       high, tolerance, out.data(), out.size(), &count,
+                                       call.error());
+    };
+    if (call.grow(out, most))
+        call.status = search();
+    if (call.status == CARVEL_STATUS_BUFFER_TOO_SMALL && call.grow(out, count))
+        call.status = search();
+    if (call.status == CARVEL_STATUS_OK)
+        out.resize(static_cast<std::size_t>(count));
+    return call.result(std::move(out));
+}
+
+#if CARVEL_HPP_THROWS
+inline CatalogueEntry catalogue_entry(std::uint64_t index)
+{
+    return try_catalogue_entry(index).value();
+}
+inline std::vector<ParameterRange> catalogue_ranges(const char *name, const char *parameter,
+                                                    std::uint32_t continuity, Fraction low,
+                                                    Fraction high, Fraction tolerance,
+                                                    const Context *context = nullptr)
+{
+    return try_catalogue_ranges(name, parameter, continuity, low, high, tolerance, context)
+        .value();
+}
+#endif
 
 /* ==========================================================================
  * openmesh: meshes of OpenMesh

@@ -20,6 +20,7 @@
 #![allow(non_camel_case_types, missing_docs, clippy::missing_safety_doc)]
 
 mod buffer;
+mod catalogue;
 mod channel;
 mod context;
 mod error;
@@ -40,6 +41,7 @@ mod surface;
 mod values;
 mod versioned;
 
+pub use catalogue::*;
 pub use channel::*;
 pub use context::*;
 pub use error::*;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <string>
 
 int main()
 {
@@ -36,6 +37,26 @@ int main()
     CHECK(found.continuity == 2 && found.proof_norm.numerator == 3);
     const carvel::Scheme scheme = paper.scheme();
     CHECK(scheme.passes().size() == 1 && scheme.passes()[0].denominator == 2);
+
+    const carvel::Mask moved = carvel::Mask::create_with_offset("[1,2,1]/2", 2, 3);
+    const carvel::LimitSamples hat = moved.sample_limit(1);
+    CHECK(hat.first == 7 && hat.values == (std::vector<double>{0.5, 1, 0.5}));
+    CHECK(!carvel::Mask::try_create_with_offset("chaikin", 0, 1));
+    CHECK(!moved.try_sample_limit(1, 2));
+
+    std::size_t names = 0;
+    for (std::uint64_t i = 0; i < carvel_catalogue_count(); ++i) {
+        const carvel::CatalogueEntry entry = carvel::catalogue_entry(i);
+        if (std::string(entry.name) != "corner-cutting")
+            continue;
+        ++names;
+        CHECK(entry.is_stationary && entry.parameters.size() == 2);
+        CHECK(std::string(entry.parameters[1].name) == "beta" && entry.parameters[1].is_free);
+    }
+    CHECK(names == 1 && !carvel::try_catalogue_entry(carvel_catalogue_count()));
+    const auto ranges = carvel::catalogue_ranges("three-point", "w", 3, {-1, 1}, {1, 1}, {1, 100});
+    CHECK(ranges.size() == 1 && ranges[0].low_inside.denominator == 16);
+    CHECK(!carvel::try_catalogue_ranges("three-point", "v", 3, {-1, 1}, {1, 1}, {1, 100}));
 
     const auto none = carvel::Mask::try_create("chakin");
     CHECK(!none && none.error().status() == CARVEL_STATUS_INVALID_NUMBER);
