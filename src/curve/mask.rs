@@ -252,10 +252,10 @@ fn broken_sum_rule(sums: &[Rational]) -> String {
         list.push(format!("{left} more do not either"));
     }
     let (list, first) = (list.join(", "), &sums[0]);
-    let advice = match sums.iter().all(|sum| sum == first) && !first.is_zero() {
-        true => format!("; all divided by {} make a mask, as in [1,3,3,1]/4", shown(first)),
-        false => String::new(),
-    };
+    let mut advice = String::new();
+    if sums.iter().all(|sum| sum == first) && !first.is_zero() {
+        advice = format!("; all divided by {} make a mask, as in [1,3,3,1]/4", shown(first));
+    }
     format!("sum rule: the coefficients of each of the {arity} rules must sum to 1; {list}{advice}")
 }
 

@@ -43,6 +43,10 @@ pub fn to_fraction(value: &Rational) -> Option<Fraction> {
 pub fn parse(text: &str) -> Result<Rational> {
     let shown: String = text.chars().take(40).collect();
     read(text.trim()).map_err(|wrong| match wrong {
+        Wrong::Text if text.trim().is_empty() => {
+            let message = "a number such as 1/32, 0.5, 5e-1 or 3 is missing";
+            Error::new(ErrorKind::InvalidText, message)
+        }
         Wrong::Text => {
             let message = format!("'{shown}' is not a number such as 1/32, 0.5, 5e-1 or 3");
             Error::new(ErrorKind::InvalidText, message)

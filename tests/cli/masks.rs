@@ -173,6 +173,8 @@ fn text_says_what_is_proved() {
         assert!(text.contains(part), "{part}: {text}");
     }
     let c1 = text.lines().find(|line| line.starts_with("C^1")).expect("a range");
+    let none = bench.run("analyse four-point --range w --within 5..6").ok();
+    assert!(none.out_text().contains("no w found from 5 to 6"), "{}", none.out_text());
     // Ends are narrowed down to a millionth of the search.
     assert!(c1.contains("w from 0.00000") && c1.contains("to 0.1927"), "{c1}");
 }

@@ -43,6 +43,9 @@ fn links_are_followed_whatever_is_written() {
     }
     std::os::unix::fs::symlink("round.csv", link("round.csv")).unwrap();
     bench.run("curve line.csv -o round.csv").fails(7, "round.csv");
+    // Of a place that nothing can be made in the name alone is told, not that of the new file.
+    let run = bench.run("curve line.csv -o /proc/none.csv");
+    assert!(run.code == 7 && !run.err.contains(".tmp"), "{}", run.err);
 }
 
 #[test]

@@ -178,10 +178,14 @@ fn text(
         ("on meshes", on_meshes(mask)),
     ];
     let name = args.range.as_deref().unwrap_or_default();
-    let proved = ranges.iter().flat_map(|ranges| ranges.iter().enumerate());
-    let ranges: Vec<_> =
-        proved.map(|(k, list)| (format!("C^{k}"), range_text(name, list))).collect();
+    let proved = |(k, list): (usize, &Vec<_>)| (format!("C^{k}"), range_text(name, list));
+    let ranges: Option<Vec<_>> = ranges.map(|all| all.iter().enumerate().map(proved).collect());
+    let none = ranges.as_ref().is_some_and(Vec::is_empty);
+    let [low, high] = &args.within;
+    let none = none.then(|| ("C^0", format!("no {name} found from {low} to {high}")));
+    let ranges = ranges.unwrap_or_default();
     lines.extend(ranges.iter().map(|(k, text)| (k.as_str(), text.clone())));
+    lines.extend(none);
     let mut text = String::new();
     for (label, value) in lines {
         // Writing to a string does not fail.

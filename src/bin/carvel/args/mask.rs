@@ -3,6 +3,7 @@
 use crate::exit::{Doing, Failure};
 use carvel::analysis::mask::AffineFamily;
 use carvel::curve::catalogue::{FAMILIES, NON_STATIONARY};
+use carvel::curve::rational::ratio;
 use carvel::curve::{Mask, Rational, catalogue, rational};
 use clap::Args;
 
@@ -147,9 +148,15 @@ pub struct MaskArgs {
 
 /// Two numbers such as -1/2..0.3.
 fn interval(text: &str) -> Result<[Rational; 2], String> {
+    /// Far beyond any value for which schemes converge; the first look has 33 values.
+    const MOST: i64 = 1_000_000;
     let (low, high) = text.split_once("..").ok_or("two numbers such as -1/2..0.3 are meant")?;
     let number = |text: &str| rational::parse(text).map_err(|e| e.to_string());
     let [low, high] = [number(low)?, number(high)?];
+    let most = ratio(MOST, 1);
+    if low < -&most || high > most {
+        return Err(format!("{MOST} is the largest end of a search"));
+    }
     if low >= high {
         return Err(format!("{low}..{high} is empty: the smaller number comes first"));
     }
@@ -159,12 +166,11 @@ fn interval(text: &str) -> Result<[Rational; 2], String> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use carvel::curve::rational::ratio;
 
     #[test]
     fn intervals_are_two_numbers() {
         assert_eq!(interval("-1/2..0.25"), Ok([ratio(-1, 2), ratio(1, 4)]));
-        for text in ["", "..", "1", "1..", "a..b", "0..1/0", "1..0", "1/2..0.5"] {
+        for text in ["", "..", "1", "1..", "a..b", "0..1/0", "1..0", "1/2..0.5", "0..1e7"] {
             assert!(interval(text).is_err(), "{text}");
         }
     }
