@@ -105,6 +105,7 @@
  *   carvel_stencils   rows of weights: the cheapest values of a fixed topology
  *   carvel_surface    the limit surface at any point, with derivatives
  *   carvel_mask       a scheme of polygons, and what is proved of it
+ *   carvel_grid_mask  a scheme of grids, by any mask of two directions
  *   (catalogue)       the schemes of polygons that have names
  *   (analysis)        how smooth a scheme's surfaces are around a feature
  *
@@ -1967,6 +1968,62 @@ CARVEL_API carvel_status carvel_mask_refine_grid_f32(const carvel_mask *down,
                                                      carvel_error *error);
 CARVEL_API carvel_status carvel_mask_refine_grid_f64(const carvel_mask *down,
                                                      const carvel_mask *along,
+                                                     const carvel_context *context,
+                                                     int32_t ends_down, int32_t ends_along,
+                                                     uint64_t columns, uint32_t steps,
+                                                     const carvel_const_values_f64 *points,
+                                                     const carvel_values_f64 *out,
+                                                     carvel_error *error);
+
+/* ==========================================================================
+ * carvel_grid_mask: a scheme of grids
+ *
+ * A mask of two directions, such as that of a box spline, where carvel_mask_refine_grid_f32
+ * has products of two masks: new point (i, j) is the sum of a(i - m k, j - n l) times old point
+ * (k, l). Immutable and shared freely.
+ * ========================================================================== */
+
+typedef struct carvel_grid_mask carvel_grid_mask;
+
+/* Makes a mask of two directions, `down` from row to row and `along` the rows.
+ * coefficients: `count` of them, 2^20 at most, row by row, `columns` to a row.
+ * arity_down, arity_along: new rows and columns for each old one, 2 to 64.
+ * offset_down, offset_along: the index of the first coefficient, -1048576 to 1048576.
+ * Errors: NULL_POINTER, MISALIGNED; INVALID_NUMBER for a denominator 0 and INT64_MIN;
+ * PARAMETER_OUT_OF_RANGE for an arity, an offset, coefficients that are no full rows or do not
+ * sum to 1 for each pair of residues; TOO_LARGE; OUT_OF_RESOURCES. */
+CARVEL_API carvel_status carvel_grid_mask_create(const carvel_fraction *coefficients,
+                                                 uint64_t count, uint64_t columns,
+                                                 uint32_t arity_down, uint32_t arity_along,
+                                                 int64_t offset_down, int64_t offset_along,
+                                                 carvel_grid_mask **out, carvel_error *error);
+
+/* Destroys a mask; NULL is allowed. */
+CARVEL_API void carvel_grid_mask_destroy(carvel_grid_mask *mask);
+
+/* The rows and columns that some steps, 64 at most, make of a grid. No cost.
+ * ends_down, ends_along: CARVEL_ENDS_CLOSED or CARVEL_ENDS_DROPPED.
+ * Errors: NULL_POINTER, MISALIGNED, OVERLAP; PARAMETER_OUT_OF_RANGE for ends or steps;
+ * LENGTH_MISMATCH for too few rows or columns; UNSUPPORTED for ends that stay; TOO_LARGE. */
+CARVEL_API carvel_status carvel_grid_mask_counts(const carvel_grid_mask *mask,
+                                                 int32_t ends_down, int32_t ends_along,
+                                                 uint64_t rows, uint64_t columns,
+                                                 uint32_t steps, uint64_t *refined_rows,
+                                                 uint64_t *refined_columns,
+                                                 carvel_error *error);
+
+/* Refines a grid, `steps` times. Points are row by row, `columns` to a row; the result has the
+ * rows and columns that carvel_grid_mask_counts says.
+ * Errors: as carvel_mask_refine_f32 and carvel_grid_mask_counts, and LENGTH_MISMATCH for points
+ * that are no full rows. */
+CARVEL_API carvel_status carvel_grid_mask_refine_f32(const carvel_grid_mask *mask,
+                                                     const carvel_context *context,
+                                                     int32_t ends_down, int32_t ends_along,
+                                                     uint64_t columns, uint32_t steps,
+                                                     const carvel_const_values_f32 *points,
+                                                     const carvel_values_f32 *out,
+                                                     carvel_error *error);
+CARVEL_API carvel_status carvel_grid_mask_refine_f64(const carvel_grid_mask *mask,
                                                      const carvel_context *context,
                                                      int32_t ends_down, int32_t ends_along,
                                                      uint64_t columns, uint32_t steps,

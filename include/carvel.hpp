@@ -675,6 +675,7 @@ inline void destroy(carvel_hierarchy *object) { carvel_hierarchy_destroy(object)
 inline void destroy(carvel_stencils *object) { carvel_stencils_destroy(object); }
 inline void destroy(carvel_surface *object) { carvel_surface_destroy(object); }
 inline void destroy(carvel_mask *object) { carvel_mask_destroy(object); }
+inline void destroy(carvel_grid_mask *object) { carvel_grid_mask_destroy(object); }
 
 /* The twins by type. */
 inline carvel_status refine(carvel_refiner *refiner, const carvel_context *context,
@@ -802,6 +803,26 @@ inline carvel_status refine_grid(const carvel_mask *down, const carvel_mask *alo
                                  const carvel_values_f64 *out, carvel_error *error)
 {
     return carvel_mask_refine_grid_f64(down, along, context, static_cast<std::int32_t>(ends_down),
+                                       static_cast<std::int32_t>(ends_along), columns, steps,
+                                       points, out, error);
+}
+inline carvel_status refine_grid(const carvel_grid_mask *mask, const carvel_context *context,
+                                 carvel_ends ends_down, carvel_ends ends_along,
+                                 std::uint64_t columns, std::uint32_t steps,
+                                 const carvel_const_values_f32 *points,
+                                 const carvel_values_f32 *out, carvel_error *error)
+{
+    return carvel_grid_mask_refine_f32(mask, context, static_cast<std::int32_t>(ends_down),
+                                       static_cast<std::int32_t>(ends_along), columns, steps,
+                                       points, out, error);
+}
+inline carvel_status refine_grid(const carvel_grid_mask *mask, const carvel_context *context,
+                                 carvel_ends ends_down, carvel_ends ends_along,
+                                 std::uint64_t columns, std::uint32_t steps,
+                                 const carvel_const_values_f64 *points,
+                                 const carvel_values_f64 *out, carvel_error *error)
+{
+    return carvel_grid_mask_refine_f64(mask, context, static_cast<std::int32_t>(ends_down),
                                        static_cast<std::int32_t>(ends_along), columns, steps,
                                        points, out, error);
 }
@@ -2442,6 +2463,82 @@ private:
         }
         return call.result(std::move(out));
     }
+};
+
+/* ==========================================================================
+ * GridMask: a scheme of grids, by any mask of two directions
+ * ========================================================================== */
+
+/* Rows and columns of a grid. */
+struct GridSize {
+    std::uint64_t rows = 0;
+    std::uint64_t columns = 0;
+};
+
+class GridMask : public detail::Handle<carvel_grid_mask, detail::destroy> {
+public:
+    using Handle::Handle;
+    /* Hands the object over to the caller. */
+    carvel_grid_mask *release() noexcept { return object_.release(); }
+
+    /* Coefficients row by row; arities and offsets from row to row, and along. */
+    static Result<GridMask> try_create(const std::vector<Fraction> &coefficients,
+                                       std::uint64_t columns, std::array<std::uint32_t, 2> arity,
+                                       std::array<std::int64_t, 2> offset)
+    {
+        detail::Call call;
+        carvel_grid_mask *out = nullptr;
+        call.status =
+            carvel_grid_mask_create(coefficients.data(), coefficients.size(), columns, arity[0],
+                                    arity[1], offset[0], offset[1], &out, call.error());
+        return call.result(GridMask(out));
+    }
+
+    /* The size of a grid after some steps. */
+    Result<GridSize> try_counts(carvel_ends ends_down, carvel_ends ends_along, GridSize size,
+                                std::uint32_t steps) const
+    {
+        detail::Call call;
+        GridSize out;
+        call.status = carvel_grid_mask_counts(
+            get(), static_cast<std::int32_t>(ends_down), static_cast<std::int32_t>(ends_along),
+            size.rows, size.columns, steps, &out.rows, &out.columns, call.error());
+        return call.result(out);
+    }
+
+    /* A grid, row by row, after some steps. */
+    template <class V, class O>
+    Result<void> try_refine_into(carvel_ends ends_down, carvel_ends ends_along,
+                                 std::uint64_t columns, std::uint32_t steps, const V &points,
+                                 O &&out, const Context *context = nullptr) const
+    {
+        const ConstValues from = values(points);
+        const Values to = values(out);
+        detail::Call call;
+        call.status = detail::refine_grid(get(), detail::raw(context), ends_down, ends_along,
+                                          columns, steps, &from, &to, call.error());
+        return call.result();
+    }
+
+#if CARVEL_HPP_THROWS
+    static GridMask create(const std::vector<Fraction> &coefficients, std::uint64_t columns,
+                           std::array<std::uint32_t, 2> arity, std::array<std::int64_t, 2> offset)
+    {
+        return try_create(coefficients, columns, arity, offset).value();
+    }
+    GridSize counts(carvel_ends ends_down, carvel_ends ends_along, GridSize size,
+                    std::uint32_t steps) const
+    {
+        return try_counts(ends_down, ends_along, size, steps).value();
+    }
+    template <class V, class O>
+    void refine_into(carvel_ends ends_down, carvel_ends ends_along, std::uint64_t columns,
+                     std::uint32_t steps, const V &points, O &&out,
+                     const Context *context = nullptr) const
+    {
+        try_refine_into(ends_down, ends_along, columns, steps, points, out, context).value();
+    }
+#endif
 };
 
 /* ==========================================================================

@@ -8,7 +8,7 @@ use super::status::{CARVEL_STATUS_TOO_LARGE, Fault, Result, carvel_status};
 use super::versioned::{check, init_function, initial, versioned, write};
 use super::{carvel_context, carvel_error, carvel_fraction};
 use crate::analysis::mask::{AffineFamily, ParameterRange};
-use crate::base::{Error, ErrorKind, Fraction};
+use crate::base::{Error, ErrorKind};
 use crate::curve::Rational;
 use crate::curve::catalogue::{FAMILIES, Family, NON_STATIONARY, NonStationary, parse};
 use crate::curve::rational::{from_fraction, to_fraction};
@@ -200,7 +200,7 @@ fn family(text: &str, parameter: &CStr) -> Result<AffineFamily> {
 
 /// A number that the caller gave.
 fn exact(value: carvel_fraction) -> Result<Rational> {
-    Ok(from_fraction(Fraction::new(value.numerator, value.denominator)?))
+    Ok(from_fraction(value.exact()?))
 }
 
 /// An end of a range; 0/0 for what is not known.

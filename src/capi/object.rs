@@ -11,7 +11,7 @@
 //! | `carvel_hierarchy` | box | by reference |
 //! | `carvel_stencils` | box | by reference; what it makes when first asked is kept |
 //! | `carvel_surface` | box | by reference |
-//! | `carvel_mask` | box | by reference |
+//! | `carvel_mask`, `carvel_grid_mask` | box | by reference |
 
 use super::status::{
     CARVEL_STATUS_MISALIGNED, CARVEL_STATUS_POISONED, Fault, Result, carvel_status,

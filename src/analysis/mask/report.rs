@@ -126,8 +126,8 @@ impl Holder {
 /// s for a kernel that is to be divided by mˢ, so that doubles hold what is made of it; 0 for
 /// all but the most unusual.
 fn surplus(m: usize, kernel: &Laurent) -> usize {
-    /// Sums of products of the length that is tried stay far within the range of doubles.
-    const MOST_BITS: u64 = 64;
+    /// Far below the largest double: norms, sums of coefficients, fit as well.
+    const MOST_BITS: u64 = 512;
     let bits = |c: &Rational| c.numer().bits().saturating_sub(c.denom().bits());
     let most = kernel.coefficients().iter().map(bits).max().unwrap_or(0);
     most.saturating_sub(MOST_BITS).div_ceil(u64::from(m.ilog2())) as usize

@@ -182,6 +182,82 @@ static void check_grid(void)
     carvel_mask_destroy(along);
 }
 
+/* Loop's regular rule on a closed grid, which is no product; a 1 becomes the mask itself. */
+static void check_bivariate(void)
+{
+    static const int64_t weights[25] = {1, 2, 1, 0, 0, 2, 6, 6, 2, 0, 1, 6, 10,
+                                        6, 1, 0, 2, 6, 6, 2, 0, 0, 1, 2, 1};
+    carvel_fraction list[25];
+    carvel_grid_mask *mask = NULL;
+    double grid[16] = {0}, out[64];
+    float ones[16], constant[64];
+    uint64_t rows = 0, columns = 0;
+    int i, j;
+    carvel_const_values_f64 from = from64(grid, 16, 1);
+    carvel_values_f64 to = to64(out, 64, 1);
+    carvel_const_values_f32 from32;
+    carvel_values_f32 to32;
+    check_context("bivariate");
+    for (i = 0; i < 25; i++) {
+        list[i].numerator = weights[i];
+        list[i].denominator = 16;
+    }
+    CHECK_OK(carvel_grid_mask_create(list, 25, 5, 2, 2, -2, -2, &mask, failure));
+    CHECK_OK(carvel_grid_mask_counts(mask, CARVEL_ENDS_CLOSED, CARVEL_ENDS_CLOSED, 4, 4, 1, &rows,
+                                     &columns, failure));
+    CHECK(rows == 8 && columns == 8);
+#define REFINE(ends, width_of_rows) \
+    carvel_grid_mask_refine_f64(mask, NULL, ends, CARVEL_ENDS_CLOSED, width_of_rows, 1, &from, \
+                                &to, failure)
+    /* Of point (1, 2), at (2, 4) of the refined grid: columns 2 to 6, rows 0 to 4. */
+    grid[1 * 4 + 2] = 16;
+    CHECK_OK(REFINE(CARVEL_ENDS_CLOSED, 4));
+    for (i = 0; i < 8; i++)
+        for (j = 0; j < 8; j++)
+            CHECK(out[i * 8 + j] ==
+                  (i < 5 && j >= 2 && j < 7 ? (double)weights[i * 5 + j - 2] : 0));
+    for (i = 0; i < 16; i++)
+        ones[i] = 1;
+    from32.data = ones, from32.count = 16, from32.width = 1, from32.stride = 0;
+    to32.data = constant, to32.count = 64, to32.width = 1, to32.stride = 0;
+    CHECK_OK(carvel_grid_mask_refine_f32(mask, NULL, 0, 0, 4, 1, &from32, &to32, failure));
+    for (i = 0; i < 64; i++)
+        CHECK(constant[i] == 1);
+    CHECK_STATUS(CARVEL_STATUS_UNSUPPORTED, REFINE(CARVEL_ENDS_KEPT, 4));
+    CHECK_STATUS(CARVEL_STATUS_PARAMETER_OUT_OF_RANGE, REFINE(9, 4));
+    CHECK_STATUS(CARVEL_STATUS_LENGTH_MISMATCH, REFINE(CARVEL_ENDS_CLOSED, 3));
+    CHECK_STATUS(CARVEL_STATUS_LENGTH_MISMATCH, REFINE(CARVEL_ENDS_CLOSED, 0));
+    to.count = 63;
+    CHECK_STATUS(CARVEL_STATUS_BUFFER_TOO_SMALL, REFINE(CARVEL_ENDS_CLOSED, 4));
+    CHECK_STATUS(CARVEL_STATUS_UNSUPPORTED,
+                 carvel_grid_mask_counts(mask, CARVEL_ENDS_ANCHORED, 0, 4, 4, 1, &rows, &columns,
+                                         failure));
+    CHECK_STATUS(CARVEL_STATUS_OVERLAP,
+                 carvel_grid_mask_counts(mask, 0, 0, 4, 4, 1, &rows, &rows, failure));
+    CHECK_STATUS(CARVEL_STATUS_NULL_POINTER,
+                 carvel_grid_mask_counts(mask, 0, 0, 4, 4, 1, NULL, &rows, failure));
+    CHECK_STATUS(CARVEL_STATUS_TOO_LARGE,
+                 carvel_grid_mask_counts(mask, 0, 0, UINT64_MAX, 4, 1, &rows, &columns, failure));
+    carvel_grid_mask_destroy(mask);
+    carvel_grid_mask_destroy(NULL);
+#define CREATE(list, count, columns, arity, offset) \
+    carvel_grid_mask_create(list, count, columns, arity, 2, offset, 0, &mask, failure)
+    CHECK_STATUS(CARVEL_STATUS_PARAMETER_OUT_OF_RANGE, CREATE(list, 25, 4, 2, 0));
+    CHECK(mask == NULL);
+    CHECK_STATUS(CARVEL_STATUS_PARAMETER_OUT_OF_RANGE, CREATE(list, 0, 5, 2, 0));
+    CHECK_STATUS(CARVEL_STATUS_PARAMETER_OUT_OF_RANGE, CREATE(list, 20, 5, 2, 0));
+    CHECK_STATUS(CARVEL_STATUS_PARAMETER_OUT_OF_RANGE, CREATE(list, 25, 5, 1, 0));
+    CHECK_STATUS(CARVEL_STATUS_PARAMETER_OUT_OF_RANGE, CREATE(list, 25, 5, 2, 1 << 21));
+    CHECK_STATUS(CARVEL_STATUS_TOO_LARGE, CREATE(list, UINT64_MAX, 5, 2, 0));
+    CHECK_STATUS(CARVEL_STATUS_NULL_POINTER, CREATE(NULL, 25, 5, 2, 0));
+    list[3].denominator = 0;
+    CHECK_STATUS(CARVEL_STATUS_INVALID_NUMBER, CREATE(list, 25, 5, 2, 0));
+    CHECK_STATUS(CARVEL_STATUS_NULL_POINTER,
+                 carvel_grid_mask_create(list, 25, 5, 2, 2, 0, 0, NULL, failure));
+#undef CREATE
+#undef REFINE
+}
+
 /* Six points of a circle stay on it; a scheme without a mask says so. */
 static void check_tension(void)
 {
@@ -552,6 +628,7 @@ int main(void)
     check_ends();
     check_limits();
     check_grid();
+    check_bivariate();
     check_tension();
     check_paper();
     check_texts();

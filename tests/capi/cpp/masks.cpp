@@ -44,6 +44,20 @@ int main()
     CHECK(!carvel::Mask::try_create_with_offset("chaikin", 0, 1));
     CHECK(!moved.try_sample_limit(1, 2));
 
+    /* The product of two linear splines. */
+    std::vector<carvel::Fraction> tent;
+    for (const std::int64_t weight : {1, 2, 1, 2, 4, 2, 1, 2, 1})
+        tent.push_back({weight, 4});
+    const carvel::GridMask bilinear = carvel::GridMask::create(tent, 3, {{2, 2}}, {{-1, -1}});
+    const auto size = bilinear.counts(CARVEL_ENDS_CLOSED, CARVEL_ENDS_CLOSED, {2, 2}, 1);
+    CHECK(size.rows == 4 && size.columns == 4);
+    const std::vector<std::array<double, 1>> corners = {{{0}}, {{4}}, {{8}}, {{12}}};
+    std::vector<std::array<double, 1>> patch(16);
+    bilinear.refine_into(CARVEL_ENDS_CLOSED, CARVEL_ENDS_CLOSED, 2, 1, corners, patch);
+    CHECK(patch[0][0] == 0 && patch[1][0] == 2 && patch[2][0] == 4);
+    CHECK(patch[4][0] == 4 && patch[5][0] == 6 && patch[10][0] == 12);
+    CHECK(!carvel::GridMask::try_create(tent, 2, {{2, 2}}, {{0, 0}}));
+
     std::size_t names = 0;
     for (std::uint64_t i = 0; i < carvel_catalogue_count(); ++i) {
         const carvel::CatalogueEntry entry = carvel::catalogue_entry(i);
