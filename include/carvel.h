@@ -106,6 +106,8 @@
  *   carvel_surface    the limit surface at any point, with derivatives
  *   carvel_tessellation  triangles within a tolerance of it
  *   carvel_mask       a scheme of polygons, and what is proved of it
+ *   carvel_grid_mask  a scheme of grids, by any mask of two directions
+ *   (catalogue)       the schemes of polygons that have names
  *   (analysis)        how smooth a scheme's surfaces are around a feature
  *
  * Each is made by a _create function, which hands it over to the caller, and
@@ -1984,12 +1986,21 @@ CARVEL_API carvel_status carvel_mask_analysis_init(carvel_mask_analysis *analysi
  * text: UTF-8: a name of the catalogue with its parameters, such as "three-point:1/32" or
  * "tension-four-point:0.5" (docs/curves.md lists all), or coefficients such as
  * "1/4,3/4,3/4,1/4" or "[1,3,3,1]/4", whose middle is then at 0 or -1/2.
+ * Numbers are fractions or decimals, with exponents up to 400, and exact.
  * arity: that of coefficients, 2 to 64; 0 for 2, and for a name.
  * Errors: NULL_POINTER, MISALIGNED; INVALID_NUMBER for an unknown name and for what is no
- * number; PARAMETER_OUT_OF_RANGE for an arity, a parameter, or coefficients that do not
- * sum to 1 for each residue; TOO_LARGE for more than 1024 coefficients or long ones. */
+ * number; PARAMETER_OUT_OF_RANGE for an arity, an exponent, a parameter, or coefficients that
+ * do not sum to 1 for each residue; TOO_LARGE for more than 1024 coefficients or long ones. */
 CARVEL_API carvel_status carvel_mask_create(const char *text, uint32_t arity,
                                             carvel_mask **out, carvel_error *error);
+
+/* The same with the index of the first coefficient, which decides where new points lie; zeros
+ * at the beginning count. A name has an offset of its own.
+ * offset: -1048576 to 1048576.
+ * Errors: as carvel_mask_create, and PARAMETER_OUT_OF_RANGE for an offset or a name. */
+CARVEL_API carvel_status carvel_mask_create_with_offset(const char *text, uint32_t arity,
+                                                        int64_t offset, carvel_mask **out,
+                                                        carvel_error *error);
 
 /* Destroys a mask; NULL is allowed. */
 CARVEL_API void carvel_mask_destroy(carvel_mask *mask);
@@ -2017,6 +2028,21 @@ CARVEL_API carvel_status carvel_mask_analyse(const carvel_mask *mask,
                                              const carvel_context *context,
                                              carvel_mask_analysis *analysis,
                                              carvel_error *error);
+
+/* Samples of the limit function, what a 1 among zeros becomes, or of a derivative: sample i is
+ * the value at (first + i) / arity^levels, in intervals between control points. Computed
+ * exactly and rounded once; beyond the samples the function is 0. With capacity 0 `out` may be
+ * NULL and only `first` and `count` are written, each of which may be NULL; that costs as much.
+ * derivative: its order, 0 for the function itself.
+ * Errors: NULL_POINTER, MISALIGNED, OVERLAP, BUFFER_TOO_SMALL; UNSUPPORTED where there is no
+ * mask, no limit or no such derivative; TOO_LARGE for more than 2^20 samples; OVERFLOW for one
+ * beyond doubles; CANCELLED. */
+CARVEL_API carvel_status carvel_mask_sample_limit(const carvel_mask *mask,
+                                                  const carvel_context *context,
+                                                  uint32_t derivative, uint32_t levels,
+                                                  int64_t *first, double *out,
+                                                  uint64_t capacity, uint64_t *count,
+                                                  carvel_error *error);
 
 /* The points, and the ends, that some steps, 64 at most, make of a polygon of so many
  * points; counts->struct_size must be set. No cost.
@@ -2094,6 +2120,158 @@ CARVEL_API carvel_status carvel_mask_refine_grid_f64(const carvel_mask *down,
                                                      const carvel_const_values_f64 *points,
                                                      const carvel_values_f64 *out,
                                                      carvel_error *error);
+
+/* ==========================================================================
+ * carvel_grid_mask: a scheme of grids
+ *
+ * A mask of two directions, such as that of a box spline, where carvel_mask_refine_grid_f32
+ * has products of two masks: new point (i, j) is the sum of a(i - m k, j - n l) times old point
+ * (k, l). Immutable and shared freely.
+ * ========================================================================== */
+
+typedef struct carvel_grid_mask carvel_grid_mask;
+
+/* Makes a mask of two directions, `down` from row to row and `along` the rows.
+ * coefficients: `count` of them, 2^20 at most, row by row, `columns` to a row.
+ * arity_down, arity_along: new rows and columns for each old one, 2 to 64.
+ * offset_down, offset_along: the index of the first coefficient, -1048576 to 1048576.
+ * Errors: NULL_POINTER, MISALIGNED; INVALID_NUMBER for a denominator 0 and INT64_MIN;
+ * PARAMETER_OUT_OF_RANGE for an arity, an offset, coefficients that are no full rows or do not
+ * sum to 1 for each pair of residues; TOO_LARGE; OUT_OF_RESOURCES. */
+CARVEL_API carvel_status carvel_grid_mask_create(const carvel_fraction *coefficients,
+                                                 uint64_t count, uint64_t columns,
+                                                 uint32_t arity_down, uint32_t arity_along,
+                                                 int64_t offset_down, int64_t offset_along,
+                                                 carvel_grid_mask **out, carvel_error *error);
+
+/* Destroys a mask; NULL is allowed. */
+CARVEL_API void carvel_grid_mask_destroy(carvel_grid_mask *mask);
+
+/* The rows and columns that some steps, 64 at most, make of a grid. No cost.
+ * ends_down, ends_along: CARVEL_ENDS_CLOSED or CARVEL_ENDS_DROPPED.
+ * Errors: NULL_POINTER, MISALIGNED, OVERLAP; PARAMETER_OUT_OF_RANGE for ends or steps;
+ * LENGTH_MISMATCH for too few rows or columns; UNSUPPORTED for ends that stay; TOO_LARGE. */
+CARVEL_API carvel_status carvel_grid_mask_counts(const carvel_grid_mask *mask,
+                                                 int32_t ends_down, int32_t ends_along,
+                                                 uint64_t rows, uint64_t columns,
+                                                 uint32_t steps, uint64_t *refined_rows,
+                                                 uint64_t *refined_columns,
+                                                 carvel_error *error);
+
+/* Refines a grid, `steps` times. Points are row by row, `columns` to a row; the result has the
+ * rows and columns that carvel_grid_mask_counts says.
+ * Errors: as carvel_mask_refine_f32 and carvel_grid_mask_counts, and LENGTH_MISMATCH for points
+ * that are no full rows. */
+CARVEL_API carvel_status carvel_grid_mask_refine_f32(const carvel_grid_mask *mask,
+                                                     const carvel_context *context,
+                                                     int32_t ends_down, int32_t ends_along,
+                                                     uint64_t columns, uint32_t steps,
+                                                     const carvel_const_values_f32 *points,
+                                                     const carvel_values_f32 *out,
+                                                     carvel_error *error);
+CARVEL_API carvel_status carvel_grid_mask_refine_f64(const carvel_grid_mask *mask,
+                                                     const carvel_context *context,
+                                                     int32_t ends_down, int32_t ends_along,
+                                                     uint64_t columns, uint32_t steps,
+                                                     const carvel_const_values_f64 *points,
+                                                     const carvel_values_f64 *out,
+                                                     carvel_error *error);
+
+/* ==========================================================================
+ * Catalogue: the schemes of polygons that have names
+ *
+ * Texts are UTF-8, end with a zero byte and stay as long as the library is loaded.
+ * ========================================================================== */
+
+/* A scheme, or a family of them with parameters. */
+typedef struct carvel_catalogue_entry {
+    uint32_t struct_size;
+    /* 1 if it has a mask; 0 if its rules change from level to level or from edge to edge. */
+    int32_t is_stationary;
+    /* What carvel_mask_create takes; parameters follow after a colon, with commas. */
+    const char *name;
+    /* One line about it. */
+    const char *summary;
+    const char *authors;
+    /* Of publication: "1974; 1975" where there are several. */
+    const char *year;
+    /* Of the mask or its symbol, or of the rules. */
+    const char *formula;
+    /* How sure it is that the formula is the authors': "textbook", "derived", "memory" or
+     * "reconstructed" (docs/curves.md). */
+    const char *attribution;
+    /* Of rules that change: the scheme they become where nothing does. Otherwise empty. */
+    const char *limit;
+    /* Parameters of the mask; 0 for rules that change. */
+    uint64_t parameter_count;
+} carvel_catalogue_entry;
+
+/* A parameter of a family. */
+typedef struct carvel_catalogue_parameter {
+    uint32_t struct_size;
+    /* 1 if the mask is linear in it and any number is a value; 0 if it counts something. */
+    int32_t is_free;
+    const char *name;
+    /* Which values make sense, in words. */
+    const char *range;
+    /* The value that is taken if none is given, a number as in a mask. */
+    const char *default_value;
+} carvel_catalogue_parameter;
+
+/* Values of a parameter for which the schemes of a family are C^k: all that were sampled from
+ * low_inside to high_inside. Proved is it for those two; the schemes of low_outside and
+ * high_outside are proved not to be C^k, 0/0 where the search ended before. A value that is
+ * alone has both insides. The layout is final. */
+typedef struct carvel_parameter_range {
+    carvel_fraction low_outside;
+    carvel_fraction low_inside;
+    carvel_fraction high_inside;
+    carvel_fraction high_outside;
+} carvel_parameter_range;
+
+/* Sets every field to its default: struct_size is sizeof the struct.
+ * Errors: NULL_POINTER, MISALIGNED, STRUCT_SIZE. */
+CARVEL_API carvel_status carvel_catalogue_entry_init(carvel_catalogue_entry *entry,
+                                                     uint32_t struct_size);
+CARVEL_API carvel_status carvel_catalogue_parameter_init(carvel_catalogue_parameter *parameter,
+                                                         uint32_t struct_size);
+
+/* The number of schemes. */
+CARVEL_API uint64_t carvel_catalogue_count(void);
+
+/* A scheme; entry->struct_size must be set. The order may change with the version.
+ * Errors: NULL_POINTER, MISALIGNED, STRUCT_SIZE; INDEX_OUT_OF_RANGE. */
+CARVEL_API carvel_status carvel_catalogue_entry_at(uint64_t index,
+                                                   carvel_catalogue_entry *entry,
+                                                   carvel_error *error);
+
+/* A parameter of a scheme, in the order in which they are given; parameter->struct_size must
+ * be set.
+ * Errors: as carvel_catalogue_entry_at. */
+CARVEL_API carvel_status carvel_catalogue_parameter_at(uint64_t index,
+                                                       uint64_t parameter_index,
+                                                       carvel_catalogue_parameter *parameter,
+                                                       carvel_error *error);
+
+/* For which values of a parameter from `low` to `high` the schemes of a family are
+ * C^`continuity`, in ascending order; about a second. Intervals narrower than a 32nd of the
+ * search may be missed. With capacity 0 `out` may be NULL and only `count`, which may be NULL,
+ * is written; that costs as much.
+ * name: as carvel_mask_create takes it, with the values of other parameters.
+ * parameter: the name of one that is free.
+ * tolerance: between the inside and the outside of an end, where both can be proved.
+ * Errors: NULL_POINTER, MISALIGNED, OVERLAP, BUFFER_TOO_SMALL; INVALID_NUMBER for an unknown
+ * name, and for a fraction with the denominator 0; PARAMETER_OUT_OF_RANGE for a parameter that
+ * is not there or not free, an empty search and a tolerance that is not positive; TOO_LARGE for
+ * an end that does not fit 64 bits; CANCELLED. */
+CARVEL_API carvel_status carvel_catalogue_ranges(const char *name, const char *parameter,
+                                                 const carvel_context *context,
+                                                 uint32_t continuity, carvel_fraction low,
+                                                 carvel_fraction high,
+                                                 carvel_fraction tolerance,
+                                                 carvel_parameter_range *out,
+                                                 uint64_t capacity, uint64_t *count,
+                                                 carvel_error *error);
 
 #ifdef __cplusplus
 }

@@ -103,6 +103,7 @@ using Bytes = carvel_bytes;
 using Seconds = carvel_seconds;
 using Counts = carvel_counts;
 using MaskAnalysis = carvel_mask_analysis;
+using ParameterRange = carvel_parameter_range;
 using PolygonCounts = carvel_polygon_counts;
 using Element = carvel_element;
 using Fraction = carvel_fraction;
@@ -676,6 +677,7 @@ inline void destroy(carvel_stencils *object) { carvel_stencils_destroy(object); 
 inline void destroy(carvel_surface *object) { carvel_surface_destroy(object); }
 inline void destroy(carvel_tessellation *object) { carvel_tessellation_destroy(object); }
 inline void destroy(carvel_mask *object) { carvel_mask_destroy(object); }
+inline void destroy(carvel_grid_mask *object) { carvel_grid_mask_destroy(object); }
 
 /* The twins by type. */
 inline carvel_status refine(carvel_refiner *refiner, const carvel_context *context,
@@ -837,6 +839,26 @@ inline carvel_status refine_grid(const carvel_mask *down, const carvel_mask *alo
                                  const carvel_values_f64 *out, carvel_error *error)
 {
     return carvel_mask_refine_grid_f64(down, along, context, static_cast<std::int32_t>(ends_down),
+                                       static_cast<std::int32_t>(ends_along), columns, steps,
+                                       points, out, error);
+}
+inline carvel_status refine_grid(const carvel_grid_mask *mask, const carvel_context *context,
+                                 carvel_ends ends_down, carvel_ends ends_along,
+                                 std::uint64_t columns, std::uint32_t steps,
+                                 const carvel_const_values_f32 *points,
+                                 const carvel_values_f32 *out, carvel_error *error)
+{
+    return carvel_grid_mask_refine_f32(mask, context, static_cast<std::int32_t>(ends_down),
+                                       static_cast<std::int32_t>(ends_along), columns, steps,
+                                       points, out, error);
+}
+inline carvel_status refine_grid(const carvel_grid_mask *mask, const carvel_context *context,
+                                 carvel_ends ends_down, carvel_ends ends_along,
+                                 std::uint64_t columns, std::uint32_t steps,
+                                 const carvel_const_values_f64 *points,
+                                 const carvel_values_f64 *out, carvel_error *error)
+{
+    return carvel_grid_mask_refine_f64(mask, context, static_cast<std::int32_t>(ends_down),
                                        static_cast<std::int32_t>(ends_along), columns, steps,
                                        points, out, error);
 }
@@ -2418,6 +2440,12 @@ private:
  * Mask: a scheme of polygons, and what is proved of it
  * ========================================================================== */
 
+/* Values at (first + i) / arity^levels; outside of them the function is 0. */
+struct LimitSamples {
+    std::int64_t first = 0;
+    std::vector<double> values;
+};
+
 class Mask : public detail::Handle<carvel_mask, detail::destroy> {
 public:
     using Handle::Handle;
@@ -2430,6 +2458,16 @@ public:
         detail::Call call;
         carvel_mask *out = nullptr;
         call.status = carvel_mask_create(text, arity, &out, call.error());
+        return call.result(Mask(out));
+    }
+
+    /* Coefficients with the index of the first. */
+    static Result<Mask> try_create_with_offset(const char *text, std::uint32_t arity,
+                                               std::int64_t offset)
+    {
+        detail::Call call;
+        carvel_mask *out = nullptr;
+        call.status = carvel_mask_create_with_offset(text, arity, offset, &out, call.error());
         return call.result(Mask(out));
     }
 
@@ -2460,6 +2498,23 @@ public:
         MaskAnalysis analysis = detail::sized<MaskAnalysis>();
         call.status = carvel_mask_analyse(get(), detail::raw(context), &analysis, call.error());
         return call.result(analysis);
+    }
+
+    /* The limit function, or a derivative, at multiples of arity^-levels. */
+    Result<LimitSamples> try_sample_limit(std::uint32_t levels, std::uint32_t derivative = 0,
+                                          const Context *context = nullptr) const
+    {
+        detail::Call call;
+        LimitSamples out;
+        std::uint64_t count = 0;
+        const auto sample = [&](double *values, std::uint64_t capacity) {
+            return carvel_mask_sample_limit(get(), detail::raw(context), derivative, levels,
+                                            &out.first, values, capacity, &count, call.error());
+        };
+        call.status = sample(nullptr, 0);
+        if (call.status == CARVEL_STATUS_OK && call.grow(out.values, count))
+            call.status = sample(out.values.data(), count);
+        return call.result(std::move(out));
     }
 
     /* Points and ends after some steps. */
@@ -2551,7 +2606,16 @@ public:
     {
         return try_create(text, arity).value();
     }
+    static Mask create_with_offset(const char *text, std::uint32_t arity, std::int64_t offset)
+    {
+        return try_create_with_offset(text, arity, offset).value();
+    }
     std::vector<Fraction> coefficients() const { return try_coefficients().value(); }
+    LimitSamples sample_limit(std::uint32_t levels, std::uint32_t derivative = 0,
+                              const Context *context = nullptr) const
+    {
+        return try_sample_limit(levels, derivative, context).value();
+    }
     Scheme scheme() const { return try_scheme().value(); }
     MaskAnalysis analyse(const Context *context = nullptr) const
     {
@@ -2620,6 +2684,171 @@ private:
         return call.result(std::move(out));
     }
 };
+
+/* ==========================================================================
+ * GridMask: a scheme of grids, by any mask of two directions
+ * ========================================================================== */
+
+/* Rows and columns of a grid. */
+struct GridSize {
+    std::uint64_t rows = 0;
+    std::uint64_t columns = 0;
+};
+
+class GridMask : public detail::Handle<carvel_grid_mask, detail::destroy> {
+public:
+    using Handle::Handle;
+    /* Hands the object over to the caller. */
+    carvel_grid_mask *release() noexcept { return object_.release(); }
+
+    /* Coefficients row by row; arities and offsets from row to row, and along. */
+    static Result<GridMask> try_create(const std::vector<Fraction> &coefficients,
+                                       std::uint64_t columns, std::array<std::uint32_t, 2> arity,
+                                       std::array<std::int64_t, 2> offset)
+    {
+        detail::Call call;
+        carvel_grid_mask *out = nullptr;
+        call.status =
+            carvel_grid_mask_create(coefficients.data(), coefficients.size(), columns, arity[0],
+                                    arity[1], offset[0], offset[1], &out, call.error());
+        return call.result(GridMask(out));
+    }
+
+    /* The size of a grid after some steps. */
+    Result<GridSize> try_counts(carvel_ends ends_down, carvel_ends ends_along, GridSize size,
+                                std::uint32_t steps) const
+    {
+        detail::Call call;
+        GridSize out;
+        call.status = carvel_grid_mask_counts(
+            get(), static_cast<std::int32_t>(ends_down), static_cast<std::int32_t>(ends_along),
+            size.rows, size.columns, steps, &out.rows, &out.columns, call.error());
+        return call.result(out);
+    }
+
+    /* A grid, row by row, after some steps. */
+    template <class V, class O>
+    Result<void> try_refine_into(carvel_ends ends_down, carvel_ends ends_along,
+                                 std::uint64_t columns, std::uint32_t steps, const V &points,
+                                 O &&out, const Context *context = nullptr) const
+    {
+        const ConstValues from = values(points);
+        const Values to = values(out);
+        detail::Call call;
+        call.status = detail::refine_grid(get(), detail::raw(context), ends_down, ends_along,
+                                          columns, steps, &from, &to, call.error());
+        return call.result();
+    }
+
+#if CARVEL_HPP_THROWS
+    static GridMask create(const std::vector<Fraction> &coefficients, std::uint64_t columns,
+                           std::array<std::uint32_t, 2> arity, std::array<std::int64_t, 2> offset)
+    {
+        return try_create(coefficients, columns, arity, offset).value();
+    }
+    GridSize counts(carvel_ends ends_down, carvel_ends ends_along, GridSize size,
+                    std::uint32_t steps) const
+    {
+        return try_counts(ends_down, ends_along, size, steps).value();
+    }
+    template <class V, class O>
+    void refine_into(carvel_ends ends_down, carvel_ends ends_along, std::uint64_t columns,
+                     std::uint32_t steps, const V &points, O &&out,
+                     const Context *context = nullptr) const
+    {
+        try_refine_into(ends_down, ends_along, columns, steps, points, out, context).value();
+    }
+#endif
+};
+
+/* ==========================================================================
+ * catalogue: the schemes of polygons that have names
+ *
+ * Texts stay as long as the library is loaded.
+ * ========================================================================== */
+
+/* A parameter of a family: see carvel_catalogue_parameter. */
+struct CatalogueParameter {
+    const char *name;
+    const char *range;
+    const char *default_value;
+    bool is_free;
+};
+
+/* A scheme by name: see carvel_catalogue_entry. */
+struct CatalogueEntry {
+    const char *name;
+    const char *summary;
+    const char *authors;
+    const char *year;
+    const char *formula;
+    const char *attribution;
+    /* Empty if it is stationary. */
+    const char *limit;
+    bool is_stationary;
+    std::vector<CatalogueParameter> parameters;
+};
+
+/* The scheme of an index below carvel_catalogue_count(). */
+inline Result<CatalogueEntry> try_catalogue_entry(std::uint64_t index)
+{
+    detail::Call call;
+    auto entry = detail::sized<carvel_catalogue_entry>();
+    call.status = carvel_catalogue_entry_at(index, &entry, call.error());
+    CatalogueEntry out = {entry.name,    entry.summary,     entry.authors, entry.year,
+                          entry.formula, entry.attribution, entry.limit,   entry.is_stationary != 0,
+                          {}};
+    if (call.status == CARVEL_STATUS_OK && call.grow(out.parameters, entry.parameter_count)) {
+        auto parameter = detail::sized<carvel_catalogue_parameter>();
+        for (std::uint64_t i = 0; i < entry.parameter_count && call.status == CARVEL_STATUS_OK;
+             ++i) {
+            call.status = carvel_catalogue_parameter_at(index, i, &parameter, call.error());
+            out.parameters[i] = {parameter.name, parameter.range, parameter.default_value,
+                                 parameter.is_free != 0};
+        }
+    }
+    return call.result(std::move(out));
+}
+
+/* For which values of a parameter the schemes of a family are C^`continuity`. */
+inline Result<std::vector<ParameterRange>>
+try_catalogue_ranges(const char *name, const char *parameter, std::uint32_t continuity,
+                     Fraction low, Fraction high, Fraction tolerance,
+                     const Context *context = nullptr)
+{
+    /* More than families have, so that the search is not made twice. */
+    constexpr std::uint64_t most = 32;
+    detail::Call call;
+    std::vector<ParameterRange> out;
+    std::uint64_t count = 0;
+    const auto search = [&] {
+        return carvel_catalogue_ranges(name, parameter, detail::raw(context), continuity, low,
+                                       high, tolerance, out.data(), out.size(), &count,
+                                       call.error());
+    };
+    if (call.grow(out, most))
+        call.status = search();
+    if (call.status == CARVEL_STATUS_BUFFER_TOO_SMALL && call.grow(out, count))
+        call.status = search();
+    if (call.status == CARVEL_STATUS_OK)
+        out.resize(static_cast<std::size_t>(count));
+    return call.result(std::move(out));
+}
+
+#if CARVEL_HPP_THROWS
+inline CatalogueEntry catalogue_entry(std::uint64_t index)
+{
+    return try_catalogue_entry(index).value();
+}
+inline std::vector<ParameterRange> catalogue_ranges(const char *name, const char *parameter,
+                                                    std::uint32_t continuity, Fraction low,
+                                                    Fraction high, Fraction tolerance,
+                                                    const Context *context = nullptr)
+{
+    return try_catalogue_ranges(name, parameter, continuity, low, high, tolerance, context)
+        .value();
+}
+#endif
 
 /* ==========================================================================
  * openmesh: meshes of OpenMesh

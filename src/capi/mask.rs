@@ -1,7 +1,7 @@
 //! `carvel_mask`: a scheme of polygons, what it makes of them and of grids, and what is proved
 //! of it.
 
-use super::buffer::{check_pointer, list};
+use super::buffer::{Target, check_overlap, check_pointer, list};
 use super::guard::call;
 use super::object::{destroy_function, object};
 use super::status::{CARVEL_STATUS_TOO_LARGE, Fault, Result, carvel_status};
@@ -9,9 +9,10 @@ use super::versioned::{check, init_function, initial, versioned, write};
 use super::{carvel_context, carvel_error, carvel_fraction, carvel_scheme};
 use crate::analysis::mask::{Analysis, Effort};
 use crate::base::{Context, Error, ErrorKind};
-use crate::curve::rational::to_fraction;
+use crate::curve::rational::{to_f64, to_fraction};
 use crate::curve::{
     CurveScheme, CurveSplit, Ends, Factors, Mask, Parametrisation, Polygon, Rational,
+    sample_derivative,
 };
 use crate::scheme::Scheme;
 use std::ffi::{CStr, c_char};
@@ -87,23 +88,47 @@ fn order(value: Option<usize>) -> i32 {
     value.and_then(|k| i32::try_from(k).ok()).unwrap_or(-1)
 }
 
+/// A text of the caller's.
+///
+/// # Safety
+/// NULL, or a string that ends with a zero byte, and lives as long as it is used.
+pub(super) unsafe fn text_of<'a>(text: *const c_char, name: &'static str) -> Result<&'a CStr> {
+    check_pointer(text, name)?;
+    // SAFETY: the caller's contract.
+    Ok(unsafe { CStr::from_ptr(text) })
+}
+
 /// The scheme of a text: a name of the catalogue begins with a letter, coefficients do not.
 ///
 /// # Safety
 /// NULL, or a string that ends with a zero byte.
-unsafe fn scheme(text: *const c_char, arity: u32) -> Result<CurveScheme> {
-    check_pointer(text, "text")?;
+unsafe fn scheme(text: *const c_char, arity: u32, offset: Option<i64>) -> Result<CurveScheme> {
     // SAFETY: the caller's contract.
-    let text = unsafe { CStr::from_ptr(text) }.to_str();
+    let text = unsafe { text_of(text, "text")? }.to_str();
     let text =
         text.map_err(|_| Error::new(ErrorKind::InvalidText, "the text is no UTF-8".to_owned()))?;
     let named = text.trim_start().starts_with(|c: char| c.is_ascii_alphabetic());
-    match (named, arity) {
-        (true, 0) => Ok(CurveScheme::named(text)?),
-        (true, _) => Err(Fault::out_of_range("arity is set, but a name has its own")),
-        (false, 0) => Ok(CurveScheme::Stationary(Mask::parse(text, 2, None)?)),
-        (false, arity) => Ok(CurveScheme::Stationary(Mask::parse(text, arity as usize, None)?)),
+    match (named, arity, offset) {
+        (true, 0, None) => Ok(CurveScheme::named(text)?),
+        (true, 0, Some(_)) => Err(Fault::out_of_range("a name has an offset of its own")),
+        (true, ..) => Err(Fault::out_of_range("arity is set, but a name has its own")),
+        (false, 0, _) => Ok(CurveScheme::Stationary(Mask::parse(text, 2, offset)?)),
+        (false, arity, _) => {
+            Ok(CurveScheme::Stationary(Mask::parse(text, arity as usize, offset)?))
+        }
     }
+}
+
+/// Samples of the limit function as doubles.
+fn doubles(samples: &[Rational]) -> Result<Vec<f64>> {
+    let double = |(i, sample): (usize, &Rational)| match to_f64(sample) {
+        value if value.is_finite() => Ok(value),
+        _ => {
+            let message = format!("sample {i} is beyond the range of doubles");
+            Err(Error::new(ErrorKind::Overflow, message).into())
+        }
+    };
+    samples.iter().enumerate().map(double).collect()
 }
 
 impl carvel_mask_analysis {
@@ -146,7 +171,19 @@ pub unsafe extern "C" fn carvel_mask_create(
     error: *mut carvel_error,
 ) -> carvel_status {
     // SAFETY: the header's contract.
-    unsafe { call(error, |call| call.create(out, |_| scheme(text, arity))) }
+    unsafe { call(error, |call| call.create(out, |_| scheme(text, arity, None))) }
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn carvel_mask_create_with_offset(
+    text: *const c_char,
+    arity: u32,
+    offset: i64,
+    out: *mut *mut carvel_mask,
+    error: *mut carvel_error,
+) -> carvel_status {
+    // SAFETY: the header's contract.
+    unsafe { call(error, |call| call.create(out, |_| scheme(text, arity, Some(offset)))) }
 }
 
 destroy_function!(carvel_mask_destroy, carvel_mask);
@@ -206,6 +243,42 @@ pub unsafe extern "C" fn carvel_mask_analyse(
             let mask = mask.stationary()?;
             let found = Analysis::of(&context, mask, Effort::default())?;
             write(analysis, &carvel_mask_analysis::of(mask, &found))
+        })
+    }
+}
+
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn carvel_mask_sample_limit(
+    mask: *const carvel_mask,
+    context: *const carvel_context,
+    derivative: u32,
+    levels: u32,
+    first: *mut i64,
+    out: *mut f64,
+    capacity: u64,
+    count: *mut u64,
+    error: *mut carvel_error,
+) -> carvel_status {
+    // SAFETY: the header's contract.
+    unsafe {
+        call(error, |call| {
+            let (mask, context) = (call.object(mask)?.stationary()?, call.context(context)?);
+            let place = Target::new((first, u64::from(!first.is_null())), 1, "first");
+            let given = place.is_given().then(|| place.span()).transpose()?;
+            let (lowest, samples) = sample_derivative(&context, mask, derivative as usize, levels)?;
+            let samples = doubles(&samples)?;
+            let written = (samples.len() as u64).min(capacity);
+            let mut spans = vec![Target::new((out, capacity), written, "out").span()?];
+            spans.extend(given);
+            if !count.is_null() {
+                spans.push(Target::new((count, 1), 1, "count").span()?);
+            }
+            check_overlap(&spans)?;
+            list(&samples, out, capacity, count)?;
+            if given.is_some() {
+                place.slice()[0] = lowest;
+            }
+            Ok(())
         })
     }
 }

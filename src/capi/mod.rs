@@ -20,9 +20,11 @@
 #![allow(non_camel_case_types, missing_docs, clippy::missing_safety_doc)]
 
 mod buffer;
+mod catalogue;
 mod channel;
 mod context;
 mod error;
+mod grid_mask;
 mod guard;
 mod hierarchy;
 mod mask;
@@ -41,9 +43,11 @@ mod tessellation;
 mod values;
 mod versioned;
 
+pub use catalogue::*;
 pub use channel::*;
 pub use context::*;
 pub use error::*;
+pub use grid_mask::*;
 pub use hierarchy::*;
 pub use mask::*;
 pub use mesh::*;

@@ -13,6 +13,7 @@
 //! | `carvel_surface` | box | by reference |
 //! | `carvel_tessellation` | box | by reference |
 //! | `carvel_mask` | box | by reference |
+//! | `carvel_mask`, `carvel_grid_mask` | box | by reference |
 
 use super::status::{
     CARVEL_STATUS_MISALIGNED, CARVEL_STATUS_POISONED, Fault, Result, carvel_status,

@@ -2,6 +2,7 @@
 //! limits.
 
 use super::buffer::{check_overlap, check_pointer};
+use super::grid_mask::{carvel_grid_mask, size};
 use super::guard::call;
 use super::mask::{carvel_mask, ends};
 use super::status::{
@@ -10,7 +11,7 @@ use super::status::{
 use super::values::{ConstValues, Values};
 use super::{carvel_context, carvel_error};
 use crate::base::{Context, Scalar, memory};
-use crate::curve::{Coordinate, CurveScheme, Ends, Grid, Mask, Polygon};
+use crate::curve::{Coordinate, CurveScheme, Ends, Grid, GridMask, Mask, Polygon};
 
 /// What is made of points in the caller's memory.
 trait Work<T> {
@@ -53,20 +54,46 @@ struct GridSteps<'a>([&'a Mask; 2], [Ends; 2], usize, u32);
 impl<T: Coordinate> Work<T> for GridSteps<'_> {
     fn count(&self, count: usize) -> Result<usize> {
         let Self([down, along], ends, columns, steps) = *self;
-        if columns == 0 || !count.is_multiple_of(columns) {
-            let message = format!("points: {count} are no rows of {columns}");
-            return Err(Fault::new(CARVEL_STATUS_LENGTH_MISMATCH, message));
-        }
-        let (rows, _) = Polygon::<T>::predict(down, count / columns, ends[0], steps)?;
+        let rows = full_rows(count, columns)?;
+        let (rows, _) = Polygon::<T>::predict(down, rows, ends[0], steps)?;
         let (columns, _) = Polygon::<T>::predict(along, columns, ends[1], steps)?;
-        let too_many = || Fault::new(CARVEL_STATUS_TOO_LARGE, "the grid has too many points");
-        rows.checked_mul(columns).ok_or_else(too_many)
+        grid_total(rows, columns)
     }
 
     fn run(&self, context: &Context, points: Vec<T>, width: usize) -> Result<Vec<T>> {
         let Self(masks, ends, columns, steps) = *self;
         Ok(Grid { points, columns, width, ends }.refine(context, masks, steps)?.points)
     }
+}
+
+/// Steps of a grid by a bivariate mask: ends, the number of columns, steps.
+struct BivariateSteps<'a>(&'a GridMask, [Ends; 2], usize, u32);
+
+impl<T: Coordinate> Work<T> for BivariateSteps<'_> {
+    fn count(&self, count: usize) -> Result<usize> {
+        let Self(mask, ends, columns, steps) = *self;
+        let [rows, columns] = mask.predict(ends, [full_rows(count, columns)?, columns], steps)?;
+        grid_total(rows, columns)
+    }
+
+    fn run(&self, context: &Context, points: Vec<T>, width: usize) -> Result<Vec<T>> {
+        let Self(mask, ends, columns, steps) = *self;
+        Ok(Grid { points, columns, width, ends }.refine_by(context, mask, steps)?.points)
+    }
+}
+
+/// The rows that points are.
+fn full_rows(count: usize, columns: usize) -> Result<usize> {
+    if columns == 0 || !count.is_multiple_of(columns) {
+        let message = format!("points: {count} are no rows of {columns}");
+        return Err(Fault::new(CARVEL_STATUS_LENGTH_MISMATCH, message));
+    }
+    Ok(count / columns)
+}
+
+fn grid_total(rows: usize, columns: usize) -> Result<usize> {
+    let too_many = || Fault::new(CARVEL_STATUS_TOO_LARGE, "the grid has too many points");
+    rows.checked_mul(columns).ok_or_else(too_many)
 }
 
 /// Reads points, works and writes what comes of it.
@@ -97,7 +124,7 @@ unsafe fn work<T: Scalar + Coordinate>(
 
 /// The functions of a kind of points.
 macro_rules! functions {
-    ($number:ty, $refine:ident, $limit:ident, $refine_grid:ident) => {
+    ($number:ty, $refine:ident, $limit:ident, $refine_grid:ident, $bivariate:ident) => {
         #[unsafe(no_mangle)]
         pub unsafe extern "C" fn $refine(
             mask: *const carvel_mask,
@@ -157,13 +184,48 @@ macro_rules! functions {
                         [call.object(down)?.stationary()?, call.object(along)?.stationary()?];
                     let context = call.context(context)?;
                     let both = [ends(ends_down)?, ends(ends_along)?];
-                    let columns = usize::try_from(columns).unwrap_or(usize::MAX);
-                    work(&context, &GridSteps(masks, both, columns, steps), (points, out))
+                    let steps = GridSteps(masks, both, size(columns), steps);
+                    work(&context, &steps, (points, out))
+                })
+            }
+        }
+
+        #[unsafe(no_mangle)]
+        pub unsafe extern "C" fn $bivariate(
+            mask: *const carvel_grid_mask,
+            context: *const carvel_context,
+            ends_down: i32,
+            ends_along: i32,
+            columns: u64,
+            steps: u32,
+            points: *const ConstValues<$number>,
+            out: *const Values<$number>,
+            error: *mut carvel_error,
+        ) -> carvel_status {
+            // SAFETY: the header's contract.
+            unsafe {
+                call(error, |call| {
+                    let (mask, context) = (call.object(mask)?, call.context(context)?);
+                    let both = [ends(ends_down)?, ends(ends_along)?];
+                    let steps = BivariateSteps(mask, both, size(columns), steps);
+                    work(&context, &steps, (points, out))
                 })
             }
         }
     };
 }
 
-functions!(f32, carvel_mask_refine_f32, carvel_mask_limit_f32, carvel_mask_refine_grid_f32);
-functions!(f64, carvel_mask_refine_f64, carvel_mask_limit_f64, carvel_mask_refine_grid_f64);
+functions!(
+    f32,
+    carvel_mask_refine_f32,
+    carvel_mask_limit_f32,
+    carvel_mask_refine_grid_f32,
+    carvel_grid_mask_refine_f32
+);
+functions!(
+    f64,
+    carvel_mask_refine_f64,
+    carvel_mask_limit_f64,
+    carvel_mask_refine_grid_f64,
+    carvel_grid_mask_refine_f64
+);

@@ -73,7 +73,7 @@ impl From<Fraction> for carvel_fraction {
 }
 
 impl carvel_fraction {
-    fn exact(self) -> Result<Fraction> {
+    pub(super) fn exact(self) -> Result<Fraction> {
         Ok(Fraction::new(self.numerator, self.denominator)?)
     }
 }

@@ -51,14 +51,10 @@ impl GridMask {
         columns: usize,
         coefficients: Vec<Rational>,
     ) -> Result<Self> {
-        const MOST: usize = MOST_COEFFICIENTS * MOST_COEFFICIENTS;
         if arity.iter().any(|m| !(2..=LARGEST_ARITY).contains(m)) {
             return Err(out_of_range(format!("arities {arity:?} are not within 2..=64")));
         }
-        if coefficients.len() > MOST {
-            let message = format!("{} coefficients: the limit is {MOST}", coefficients.len());
-            return Err(Error::new(ErrorKind::TooLarge, message));
-        }
+        Self::check_count(coefficients.len())?;
         if coefficients.is_empty() || columns == 0 || !coefficients.len().is_multiple_of(columns) {
             let message = format!("{} coefficients in rows of {columns}", coefficients.len());
             return Err(out_of_range(message));
@@ -83,6 +79,29 @@ impl GridMask {
         Self::new([a.arity(), b.arity()], [a.offset(), b.offset()], columns, coefficients)
     }
 
+    /// Refuses more coefficients than a mask has.
+    ///
+    /// # Errors
+    /// [`ErrorKind::TooLarge`].
+    pub(crate) fn check_count(count: usize) -> Result<()> {
+        const MOST: usize = MOST_COEFFICIENTS * MOST_COEFFICIENTS;
+        if count > MOST {
+            let message = format!("{count} coefficients: the limit is {MOST}");
+            return Err(Error::new(ErrorKind::TooLarge, message));
+        }
+        Ok(())
+    }
+
+    /// The rows and columns of a grid of so many, with such ends, after `steps` steps.
+    ///
+    /// # Errors
+    /// As [`Grid::refine_by`], without those of points.
+    pub fn predict(&self, ends: [Ends; 2], size: [usize; 2], steps: u32) -> Result<[usize; 2]> {
+        check_ends(ends)?;
+        let predicted = |k: usize| predict(&self.profile(k), ends[k], size[k], steps);
+        Ok([predicted(0)?.0, predicted(1)?.0])
+    }
+
     /// The arities of both directions.
     pub fn arity(&self) -> [usize; 2] {
         self.arity
@@ -103,7 +122,8 @@ impl GridMask {
         for (e, f) in (0..m).flat_map(|e| (0..n).map(move |f| (e, f))) {
             let sum: Rational = self.taps(e, f).map(|(w, _)| w).sum();
             if !sum.is_one() {
-                let message = format!("the rule of residues ({e}, {f}) does not sum to 1");
+                let message =
+                    format!("sum rule: the rule of residues ({e}, {f}) sums to {sum}, not to 1");
                 return Err(out_of_range(message));
             }
         }
@@ -142,6 +162,15 @@ impl GridMask {
         };
         Rules::of_reach((0..self.arity[direction]).map(shifts).collect())
     }
+}
+
+/// Refuses ends that only tensor products have.
+fn check_ends(ends: [Ends; 2]) -> Result<()> {
+    if ends.iter().any(|ends| matches!(ends, Ends::Kept | Ends::Anchored)) {
+        let message = "ends stay under tensor products only".to_owned();
+        return Err(Error::new(ErrorKind::Unsupported, message));
+    }
+    Ok(())
 }
 
 impl<T: Coordinate> Grid<T> {
@@ -202,10 +231,7 @@ impl<T: Coordinate> Grid<T> {
     pub fn refine_by(&self, context: &Context, mask: &GridMask, steps: u32) -> Result<Self> {
         self.check()?;
         check_steps(steps)?;
-        if self.ends.iter().any(|ends| matches!(ends, Ends::Kept | Ends::Anchored)) {
-            let message = "ends stay under tensor products only".to_owned();
-            return Err(Error::new(ErrorKind::Unsupported, message));
-        }
+        check_ends(self.ends)?;
         let mut grid = self.copied()?;
         for step in 0..steps {
             context.report(f64::from(step) / f64::from(steps))?;

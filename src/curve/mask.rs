@@ -96,11 +96,15 @@ impl Mask {
     /// integers, which alone are no mask, its denominator is that of all: `1,3,3,1/4`.
     ///
     /// # Errors
-    /// [`ErrorKind::InvalidText`] for a coefficient that is no number; as [`Mask::new`].
+    /// As [`rational::parse`] for a coefficient that is no number; as [`Mask::new`].
     pub fn parse(text: &str, arity: usize, offset: Option<i64>) -> Result<Self> {
         let (list, over) = common_denominator(text)?;
         check_length(list.split(',').count())?;
-        let mut coefficients = list.split(',').map(rational::parse).collect::<Result<Vec<_>>>()?;
+        if list.trim().is_empty() {
+            let message = "no coefficients: a list such as 1/4,3/4,3/4,1/4 or [1,3,3,1]/4 is meant";
+            return Err(Error::new(ErrorKind::InvalidText, message));
+        }
+        let mut coefficients = list.split(',').map(coefficient).collect::<Result<Vec<_>>>()?;
         for coefficient in &mut coefficients {
             *coefficient /= &over;
         }
@@ -119,19 +123,14 @@ impl Mask {
     }
 
     pub(crate) fn from_symbol(arity: usize, symbol: Laurent) -> Result<Self> {
-        for residue in 0..arity as i64 {
-            let of_residue = |k: &i64| k.rem_euclid(arity as i64) == residue;
-            let exponents = (symbol.lowest()..=symbol.highest()).filter(of_residue);
-            let sum: Rational = exponents.map(|k| symbol.at(k)).sum();
-            if !sum.is_one() {
-                let message = format!(
-                    "sum rule: the coefficients at {residue} mod {arity} sum to {}, not to 1",
-                    shown(&sum)
-                );
-                return Err(out_of_range(message));
-            }
+        let mut sums = vec![Rational::zero(); arity];
+        for (k, c) in (symbol.lowest()..).zip(symbol.coefficients()) {
+            sums[k.rem_euclid(arity as i64) as usize] += c;
         }
-        Ok(Self { arity, symbol })
+        if sums.iter().all(One::is_one) {
+            return Ok(Self { arity, symbol });
+        }
+        Err(out_of_range(broken_sum_rule(&sums)))
     }
 
     /// The number of new points per old one, m.
@@ -226,6 +225,40 @@ fn common_denominator(text: &str) -> Result<(&str, Rational)> {
     })
 }
 
+/// One coefficient of a list; other marks than commas are what is mistaken most.
+fn coefficient(text: &str) -> Result<Rational> {
+    let apart = text.trim().contains([' ', ';', '\t']) && !text.contains('/');
+    rational::parse(text).map_err(|e| {
+        if !apart {
+            return e;
+        }
+        Error::new(e.kind(), format!("{e}; commas stand between coefficients"))
+    })
+}
+
+/// What is wrong with the sums of some rules, and what would mend it.
+fn broken_sum_rule(sums: &[Rational]) -> String {
+    /// Rules that are told.
+    const MOST: usize = 4;
+    let arity = sums.len();
+    let wrong = sums.iter().enumerate().filter(|(_, sum)| !sum.is_one());
+    let one = |(i, (e, sum)): (usize, (usize, &Rational))| {
+        let index = if i == 0 { format!("those of index {e} mod {arity}") } else { e.to_string() };
+        format!("{index} sum to {}", shown(sum))
+    };
+    let mut list: Vec<_> = wrong.clone().take(MOST).enumerate().map(one).collect();
+    let left = wrong.count() - list.len();
+    if left > 0 {
+        list.push(format!("{left} more do not either"));
+    }
+    let (list, first) = (list.join(", "), &sums[0]);
+    let mut advice = String::new();
+    if sums.iter().all(|sum| sum == first) && !first.is_zero() {
+        advice = format!("; all divided by {} make a mask, as in [1,3,3,1]/4", shown(first));
+    }
+    format!("sum rule: the coefficients of each of the {arity} rules must sum to 1; {list}{advice}")
+}
+
 pub(crate) fn check_length(length: usize) -> Result<()> {
     if length == 0 {
         return Err(out_of_range("a mask without coefficients".to_owned()));
@@ -240,7 +273,11 @@ pub(crate) fn check_length(length: usize) -> Result<()> {
 /// A number for a message, short whatever its size.
 fn shown(value: &Rational) -> String {
     let text = value.to_string();
-    if text.len() <= 40 { text } else { format!("about {}", rational::to_f64(value)) }
+    match rational::to_f64(value) {
+        _ if text.len() <= 40 => text,
+        near if near.is_finite() => format!("about {near:e}"),
+        _ => format!("a number of {} digits", value.to_integer().to_string().len()),
+    }
 }
 
 pub(crate) fn out_of_range(message: String) -> Error {
@@ -273,11 +310,31 @@ mod tests {
     }
 
     #[test]
+    fn what_is_no_mask_is_told_with_what_would_be_one() {
+        for (text, arity, words) in [
+            ("", 2, "no coefficients: a list such as"),
+            ("[]/2", 2, "no coefficients"),
+            ("1 3 3 1", 2, "commas stand between"),
+            ("1/0,1", 2, "'1/0' has the denominator 0"),
+            ("1/4,3/4,3/4", 2, "must sum to 1; those of index 1 mod 2 sum to 3/4"),
+            ("1,2", 2, "those of index 1 mod 2 sum to 2"),
+            ("1,2,2,1", 2, "0 mod 2 sum to 3, 1 sum to 3; all divided by 3 make a mask"),
+            ("1,1", 8, "0 mod 8 sum to 0, 1 sum to 0, 2 sum to 0, 3 sum to 0, 2 more do not"),
+        ] {
+            let message = Mask::parse(text, arity, Some(6)).unwrap_err().to_string();
+            assert!(message.contains(words), "{text}: {message}");
+        }
+        let exact = Mask::parse("25e-2,7.5e-1,75E-2,0.25", 2, None).unwrap();
+        assert_eq!(exact, "[1,3,3,1]/4".parse().unwrap());
+    }
+
+    #[test]
     fn what_is_no_mask_is_refused() {
         let kind = |text: &str, arity| Mask::parse(text, arity, None).unwrap_err().kind();
         assert_eq!(kind("", 2), ErrorKind::InvalidText);
         assert_eq!(kind("1/2,,1/2", 2), ErrorKind::InvalidText);
-        assert_eq!(kind("1,1e400", 2), ErrorKind::InvalidText);
+        assert_eq!(kind("1,1e400", 2), ErrorKind::ParameterOutOfRange);
+        assert_eq!(kind("1,1e401", 2), ErrorKind::ParameterOutOfRange);
         assert_eq!(kind("1/2,1,1/3", 2), ErrorKind::ParameterOutOfRange);
         for text in ["[1,3,3,1", "[1,3,3,1]4", "[1,3,3,1]/0", "[1,3,3,1]/x", "[]/2", "[1,1]]"] {
             assert_eq!(kind(text, 2), ErrorKind::InvalidText, "{text}");

@@ -11,6 +11,8 @@ pub type Rational = BigRational;
 
 /// The most digits of a number in a text.
 const MOST_DIGITS: usize = 1000;
+/// The largest decimal exponent in a text: those of doubles, and some more.
+const LARGEST_EXPONENT: u32 = 400;
 /// The most bits of a numerator or denominator of a coefficient.
 pub(crate) const MOST_BITS: u64 = 4096;
 
@@ -32,32 +34,69 @@ pub fn to_fraction(value: &Rational) -> Option<Fraction> {
     Fraction::new(value.numer().to_i64()?, value.denom().to_i64()?).ok()
 }
 
-/// Reads `3`, `-1/32` or a decimal such as `0.03125`, exactly; blanks around terms are let be.
+/// Reads `3`, `-1/32`, or a decimal such as `0.03125` or `5e-1`, exactly; blanks around terms are
+/// let be.
 ///
 /// # Errors
-/// [`ErrorKind::InvalidText`] for anything else: exponents, a denominator 0, more than
-/// 1000 digits.
+/// [`ErrorKind::InvalidText`] for anything else, a denominator 0, more than 1000 digits;
+/// [`ErrorKind::ParameterOutOfRange`] for a decimal exponent beyond ±400.
 pub fn parse(text: &str) -> Result<Rational> {
     let shown: String = text.chars().take(40).collect();
-    read(text.trim()).ok_or_else(|| {
-        let message = format!("'{shown}' is not a number such as 1/32, 0.5 or 3");
-        Error::new(ErrorKind::InvalidText, message)
+    read(text.trim()).map_err(|wrong| match wrong {
+        Wrong::Text if text.trim().is_empty() => {
+            let message = "a number such as 1/32, 0.5, 5e-1 or 3 is missing";
+            Error::new(ErrorKind::InvalidText, message)
+        }
+        Wrong::Text => {
+            let message = format!("'{shown}' is not a number such as 1/32, 0.5, 5e-1 or 3");
+            Error::new(ErrorKind::InvalidText, message)
+        }
+        Wrong::Denominator => {
+            Error::new(ErrorKind::InvalidText, format!("'{shown}' has the denominator 0"))
+        }
+        Wrong::Exponent => {
+            let message = format!("'{shown}' has an exponent beyond ±{LARGEST_EXPONENT}");
+            Error::new(ErrorKind::ParameterOutOfRange, message)
+        }
     })
 }
 
-fn read(text: &str) -> Option<Rational> {
+/// Why a text is no number.
+enum Wrong {
+    Text,
+    Denominator,
+    Exponent,
+}
+
+fn read(text: &str) -> std::result::Result<Rational, Wrong> {
     if text.len() > 2 * MOST_DIGITS {
-        return None;
+        return Err(Wrong::Text);
     }
+    let term = |text| integer(text).ok_or(Wrong::Text);
     if let Some((num, den)) = text.split_once('/') {
-        let (num, den) = (integer(num)?, integer(den)?);
-        return (!den.is_zero()).then(|| Rational::new(num, den));
+        let (num, den) = (term(num)?, term(den)?);
+        return if den.is_zero() { Err(Wrong::Denominator) } else { Ok(Rational::new(num, den)) };
     }
+    let Some((mantissa, exponent)) = text.split_once(['e', 'E']) else {
+        return decimal(text).ok_or(Wrong::Text);
+    };
+    let mantissa = decimal(mantissa).ok_or(Wrong::Text)?;
+    // An exponent of many digits is one that is too large.
+    let large = |exponent: &BigInt| exponent.magnitude() > &LARGEST_EXPONENT.into();
+    let plain = !exponent.contains(char::is_whitespace);
+    let exponent = integer(exponent).filter(|_| plain).ok_or(Wrong::Text)?;
+    let power = exponent.to_i32().filter(|_| !large(&exponent)).ok_or(Wrong::Exponent)?;
+    Ok(mantissa * Rational::from_integer(10.into()).pow(power))
+}
+
+/// An integer, or digits with a point.
+fn decimal(text: &str) -> Option<Rational> {
     let Some((whole, digits)) = text.split_once('.') else {
         return integer(text).map(Rational::from);
     };
     let unsigned = whole.strip_prefix(['-', '+']).unwrap_or(whole);
-    if digits.is_empty() || !unsigned.bytes().chain(digits.bytes()).all(|b| b.is_ascii_digit()) {
+    let mut all = unsigned.bytes().chain(digits.bytes()).peekable();
+    if all.peek().is_none() || !all.all(|b| b.is_ascii_digit()) {
         return None;
     }
     let value = integer(&format!("0{unsigned}{digits}"))?;
@@ -106,8 +145,25 @@ mod tests {
         {
             assert_eq!(parse(text).unwrap(), ratio(num, den), "{text}");
         }
+        for (text, num, den) in [
+            ("5e-1", 1, 2),
+            ("-1.25E+2", -125, 1),
+            ("1e9", 1_000_000_000, 1),
+            ("1.", 1, 1),
+            ("0e400", 0, 1),
+        ] {
+            assert_eq!(parse(text).unwrap(), ratio(num, den), "{text}");
+        }
+        let huge = parse("1e400").unwrap() * parse("1e-400").unwrap();
+        assert_eq!(huge, ratio(1, 1));
+        for text in ["1e401", "1e-401", "0e99999999999999999999"] {
+            assert_eq!(parse(text).unwrap_err().kind(), ErrorKind::ParameterOutOfRange, "{text}");
+        }
         let long = "1".repeat(MOST_DIGITS + 1);
-        for text in ["", "1/0", "1e9", "a", "1.", "1/2/3", "--1", "1_0", "0.-1", "nan", &long] {
+        for text in [
+            "", ".", "1/0", "e9", "1e", "1e+", "1e 9", "1e1.5", "1/2e3", "a", "1/2/3", "--1",
+            "1_0", "0.-1", "nan", &long,
+        ] {
             assert_eq!(parse(text).unwrap_err().kind(), ErrorKind::InvalidText, "{text}");
         }
     }

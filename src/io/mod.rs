@@ -136,6 +136,16 @@ pub fn write(path: &Path, mesh: &MeshFile, options: &WriteOptions<'_>) -> Result
     target::replace(path, &name, |file| write_stream(file, format, &name, mesh, options))
 }
 
+/// Writes a file whole, or leaves what was there, as [`write()`] does: `fill` writes to a new file
+/// beside the target, which takes its place at the end. For what is no mesh.
+///
+/// # Errors
+/// Those of `fill`; [`ErrorKind::Io`](crate::ErrorKind::Io) if the target cannot be written.
+pub fn replace_file(path: &Path, fill: impl FnOnce(&mut File) -> Result<()>) -> Result<()> {
+    let name = place::one_line(&path.display().to_string());
+    target::replace(path, &name, fill)
+}
+
 /// Writes a mesh to a stream, buffered here.
 ///
 /// # Errors

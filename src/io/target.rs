@@ -49,14 +49,17 @@ fn through_temporary(
     if let Some(ordinary) = &ordinary {
         builder.permissions(ordinary.clone());
     }
-    // The system's own words, without the temporary name that tempfile adds.
-    let bare = |e: io::Error| io_error(e.raw_os_error().map_or(e, io::Error::from_raw_os_error));
-    let mut temporary = builder.tempfile_in(directory).map_err(bare)?;
+    let mut temporary = builder.tempfile_in(directory).map_err(|e| io_error(bare(e)))?;
     if let Some(permissions) = permissions {
         temporary.as_file().set_permissions(permissions).map_err(io_error)?;
     }
     work(temporary.as_file_mut())?;
     temporary.persist(path).map(drop).map_err(|e| io_error(e.error))
+}
+
+/// The reason alone, without the temporary name that tempfile adds.
+fn bare(error: io::Error) -> io::Error {
+    if error.raw_os_error().is_some() { error } else { error.kind().into() }
 }
 
 /// The file that a path leads to in the end, which need not exist yet.

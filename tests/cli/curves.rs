@@ -27,6 +27,35 @@ fn a_square_by_chaikin_exactly() {
     assert_eq!((&json["dimension"], &json["format"]), (&2.into(), &"csv".into()));
 }
 
+/// A polygon of one place is refined, with a note: nothing of it can be seen in a picture.
+#[test]
+fn polygons_of_one_place_are_noted() {
+    let bench = Bench::new();
+    bench.put("one.csv", "1,2\n1,2\n1,2\n").put("two.csv", "0,0\n1,0\n\n2,2\n2,2\n");
+    bench.put("level.csv", "5\n5\n5\n");
+    for (input, output) in [("one.csv", "one.svg"), ("two.csv", "two.csv")] {
+        let run = bench.run(&format!("curve {input} -o {output}")).ok();
+        assert!(run.err.contains("in 1 polygon all points are at one place"), "{}", run.err);
+    }
+    let run = bench.run("curve one.csv -o out.csv --closed -n 2 --json").ok();
+    assert_eq!(run.json()["notes"].as_array().unwrap().len(), 2, "{}", run.err);
+    let run = bench.run("curve level.csv -o out.csv").ok();
+    assert!(!run.err.contains("note"), "{}", run.err);
+}
+
+/// Exponents are exact in masks, parameters and points alike.
+#[test]
+fn exponents_are_exact() {
+    let bench = Bench::new();
+    bench.put("square.csv", SQUARE);
+    let run = |mask: &str| {
+        bench.run(&format!("curve square.csv -o - --closed {mask} --precision exact")).ok().out
+    };
+    assert_eq!(run("--mask 25e-2,7.5E-1,75e-2,2.5e-1"), run("--mask [1,3,3,1]/4"));
+    assert_eq!(run("--scheme four-point:6.25e-2"), run("--scheme four-point:1/16"));
+    bench.run("curve square.csv -o - --mask 1e500,1").fails(2, "exponent beyond");
+}
+
 #[test]
 fn every_stationary_scheme_is_what_the_library_makes() {
     let bench = Bench::new();

@@ -4,6 +4,9 @@ use serde_json::{Value, json};
 
 use super::bench::Bench;
 
+/// Coefficients of a mask that is analysed without optimisation in no time.
+const LONGEST: usize = 8;
+
 #[test]
 fn the_papers_mask_in_json() {
     let bench = Bench::new();
@@ -63,7 +66,7 @@ fn masks_are_schemes_on_meshes() {
         ("--mask [2,3,2,1]/4", "it is not symmetric"),
         ("--scheme ternary-four-point", "its arity is 3, not 2"),
         ("--scheme weissman", "passes are not rational"),
-        ("--scheme tension-four-point", "invalid value"),
+        ("--scheme tension-four-point", "change: it has no mask"),
         ("--mask [1,3,3,1]/4 --passes 0", "follow from it"),
         ("--mask [1,3,3,1]/4 --w 1/32", "--w belongs to --scheme three-point"),
         ("--mask 1,2", "sum rule"),
@@ -85,6 +88,82 @@ fn arity_and_offset_are_heeded() {
     assert!(reason.contains("arity is 3"), "{reason}");
 }
 
+/// Coefficients far beyond what doubles hold: bounds by another route than scaling, and no
+/// number in JSON that is none.
+#[test]
+fn coefficients_of_hundreds_of_digits_have_finite_bounds() {
+    let bench = Bench::new();
+    let run = bench.run("analyse --mask 1,1e320,0,-1e320,0,1 --json").ok();
+    let found = run.json();
+    let [low, high] = [0, 1].map(|i| found["holder"][i].as_f64().expect("a finite number"));
+    // The kernel has 1 − 1e320 on the diagonal of a matrix, and rows of twice that at most.
+    let digits = 320.0 * 10.0_f64.log2();
+    assert!(low <= high && low >= -digits - 1.0 && high <= -digits + 1.0, "{low} to {high}");
+    assert!(found["joint_spectral_radius"]["low"].is_f64());
+    assert!(found["wave"]["shrink"].is_null() && found["wave"]["artifact"].is_null());
+    let text = bench.run("analyse --mask 1,1e320,0,-1e320,0,1").ok();
+    assert!(text.out_text().contains("beyond the range of doubles"));
+    assert!(!text.out_text().contains("inf") && !text.out_text().contains("NaN"));
+    // Of the radius 1, 0 rather than -0.
+    let zero = bench.run("analyse --mask 1,1").ok();
+    assert!(zero.out_text().contains(" 0 (radius 1)"), "{}", zero.out_text());
+}
+
+/// The keys and values that are promised, for every scheme of the oracle with a short mask.
+#[test]
+fn every_key_of_every_scheme_is_there() {
+    let bench = Bench::new();
+    let oracle = include_str!("../curves/curve_schemes.json");
+    let oracle: Value = serde_json::from_str(oracle).unwrap();
+    let mut tried = 0;
+    for row in oracle["schemes"].as_array().unwrap() {
+        let mask: Vec<_> = row["mask"].as_array().unwrap().iter().map(Value::as_str).collect();
+        if mask.len() > LONGEST {
+            continue;
+        }
+        tried += 1;
+        let mask = mask.into_iter().map(Option::unwrap).collect::<Vec<_>>().join(",");
+        let given = format!("--mask={mask} --arity {} --offset {}", row["arity"], row["offset"]);
+        let found = bench.run(&format!("analyse {given} --json")).ok().json();
+        let (name, expected) = (&row["name"], &row["properties"]);
+        for (key, value) in [
+            ("arity", &row["arity"]),
+            ("mask", &row["mask"]),
+            ("offset", &row["offset"]),
+            ("parametrisation", &expected["parametrisation"]),
+            ("continuity", &expected["Ck"]),
+            ("support", &expected["support_width"]),
+            ("generation_degree", &expected["generation_degree"]),
+            ("reproduction_degree", &expected["reproduction_degree"]),
+            ("tau", &expected["tau"]),
+        ] {
+            assert_eq!(&found[key], value, "{name}: {key}");
+        }
+        let proof = &found["contractivity"];
+        assert_eq!(proof["L"], expected["contractivity_L"], "{name}: L");
+        if proof["norm"].as_str().is_none_or(|norm| norm.len() < 24) {
+            assert_eq!(proof["norm"], expected["contractivity_norm"], "{name}: norm");
+        }
+        let holder = found["holder"].as_array().expect("two bounds");
+        assert!(holder.len() == 2 && holder.iter().all(Value::is_f64), "{name}: {holder:?}");
+        let text = bench.run(&format!("analyse {given}")).ok();
+        for label in [
+            "mask",
+            "continuity",
+            "contractivity",
+            "Hoelder exponent",
+            "parametrisation",
+            "tau",
+            "support",
+            "generated",
+            "reproduced",
+        ] {
+            assert!(text.out_text().contains(label), "{name}: {label}");
+        }
+    }
+    assert!(tried > 40, "{tried}");
+}
+
 #[test]
 fn text_says_what_is_proved() {
     let bench = Bench::new();
@@ -94,6 +173,8 @@ fn text_says_what_is_proved() {
         assert!(text.contains(part), "{part}: {text}");
     }
     let c1 = text.lines().find(|line| line.starts_with("C^1")).expect("a range");
+    let none = bench.run("analyse four-point --range w --within 5..6").ok();
+    assert!(none.out_text().contains("no w found from 5 to 6"), "{}", none.out_text());
     // Ends are narrowed down to a millionth of the search.
     assert!(c1.contains("w from 0.00000") && c1.contains("to 0.1927"), "{c1}");
 }
@@ -124,6 +205,11 @@ fn mistakes_are_told_in_one_line() {
         ("--mask 1/0,1", "'1/0'"),
         ("--mask 1,nan", "'nan'"),
         ("--mask 1,1 --arity 0", "arity 0"),
+        ("--mask 1,3,3,1", "all divided by 4 make a mask"),
+        ("--scheme chakin", "a similar value exists: 'chaikin'"),
+        ("four-point --range w --within 1..0", "the smaller number comes first"),
+        ("four-point:1e401", "exponent beyond"),
+        ("tension-four-point:1", "change: it has no mask; four-point"),
         ("--mask 1,1 --arity 65", "arity 65"),
         ("--mask [1,3,3,1]/0", "is not a list"),
         ("--arity 3", "--mask"),

@@ -19,6 +19,35 @@ fn several_inputs_keep_their_names_in_a_directory() {
     assert!(bench.path().join("made/cube.obj").exists());
 }
 
+/// What is no mesh follows links as meshes do, also one to nothing yet.
+#[cfg(unix)]
+#[test]
+fn links_are_followed_whatever_is_written() {
+    let bench = Bench::new();
+    bench.put("cube.obj", CUBE).put("line.csv", "0,0\n1,0\n1,1\n");
+    let link = |name: &str| bench.path().join(name);
+    for (command, name) in [
+        ("subdivide cube.obj", "mesh.obj"),
+        ("curve line.csv", "curve.csv"),
+        ("curve line.csv", "curve.svg"),
+        ("stencils cube.obj", "table.npz"),
+        ("preview cube.obj", "picture.png"),
+    ] {
+        let (there, dangling) = (format!("there_{name}"), format!("dangling_{name}"));
+        std::os::unix::fs::symlink(&there, link(&dangling)).unwrap();
+        for _ in 0..2 {
+            bench.run(&format!("{command} -o {dangling}")).ok();
+            assert!(fs::symlink_metadata(link(&dangling)).unwrap().is_symlink(), "{name}");
+            assert!(fs::symlink_metadata(link(&there)).unwrap().is_file(), "{name}");
+        }
+    }
+    std::os::unix::fs::symlink("round.csv", link("round.csv")).unwrap();
+    bench.run("curve line.csv -o round.csv").fails(7, "round.csv");
+    // Of a place that nothing can be made in the name alone is told, not that of the new file.
+    let run = bench.run("curve line.csv -o /proc/none.csv");
+    assert!(run.code == 7 && !run.err.contains(".tmp"), "{}", run.err);
+}
+
 #[test]
 fn names_that_would_clash_are_refused_before_any_work() {
     let bench = Bench::new();

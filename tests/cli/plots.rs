@@ -1,5 +1,7 @@
 //! Plots: `analyse --plot` and `catalogue --plot`.
 
+use serde_json::Value;
+
 use super::bench::Bench;
 
 fn text(bench: &Bench, name: &str) -> String {
@@ -55,6 +57,10 @@ fn the_sheet_has_all_schemes() {
     for family in list {
         let name = family["name"].as_str().unwrap();
         assert!(svg.contains(&format!("\n{name}\n")), "{name}");
+        let parameters = family["parameters"].as_array();
+        let value = |p: &Value| format!("{} = {}", p["name"], p["default"]).replace('"', "");
+        let values: Vec<_> = parameters.into_iter().flatten().map(value).collect();
+        assert!(values.is_empty() || svg.contains(&format!("\n{}\n", values.join(", "))), "{name}");
     }
     // A control and a refined polygon in each panel.
     assert_eq!(svg.matches("<polyline").count(), 4 * list.len());
@@ -78,6 +84,15 @@ fn the_picture_of_the_page_is_up_to_date() {
     bench.run("analyse three-point:1/32 --range w --plot paper.svg").ok();
     let kept = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/paper.svg");
     assert!(bench.get("paper.svg") == std::fs::read(kept).unwrap(), "docs/paper.svg is not");
+}
+
+/// So is that of docs/gallery.md.
+#[test]
+fn the_picture_of_the_gallery_is_up_to_date() {
+    let bench = Bench::new();
+    bench.run("catalogue --plot gallery.svg").ok();
+    let kept = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/gallery.svg");
+    assert!(bench.get("gallery.svg") == std::fs::read(kept).unwrap(), "docs/gallery.svg is not");
 }
 
 #[test]

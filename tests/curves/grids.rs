@@ -12,6 +12,10 @@ use carvel::{Context, Hierarchy, Mesh, Scheme};
 use crate::rng::Rng;
 use crate::support::named;
 
+/// Row, column and value of a point.
+type Placed = [Rational; PLACED];
+const PLACED: usize = 3;
+
 #[derive(Clone, Debug, PartialEq)]
 struct Exact(Rational);
 
@@ -58,6 +62,17 @@ fn random_grid(rows: usize, columns: usize, ends: Ends, seed: u64) -> Grid<Ratio
     Grid { points, columns, width: 1, ends: [ends; 2] }
 }
 
+/// Points of row, column and a random value: the first two say where a refined point is.
+fn placed_grid(rows: usize, columns: usize, ends: Ends, seed: u64) -> Grid<Rational> {
+    let values = random_grid(rows, columns, ends, seed);
+    let place = |(i, value): (usize, &Rational)| {
+        let at = |k: usize| ratio(k as i64, 1);
+        [at(i / columns), at(i % columns), value.clone()]
+    };
+    let points = values.points.iter().enumerate().flat_map(place).collect();
+    Grid { points, width: PLACED, ..values }
+}
+
 /// The quads of a grid, wrapped if it is closed.
 fn mesh(grid: &Grid<Rational>, closed: bool, triangles: bool) -> Mesh {
     let (rows, columns) = (grid.rows(), grid.columns);
@@ -77,18 +92,20 @@ fn mesh(grid: &Grid<Rational>, closed: bool, triangles: bool) -> Mesh {
     Mesh::from_polygons(rows * columns, &sizes, &faces).expect("a mesh")
 }
 
-/// One coordinate after some steps of a scheme, exactly, in ascending order.
-fn on_mesh(mesh: Mesh, scheme: Scheme, values: &[Rational], levels: u32) -> Vec<Rational> {
+/// Placed points after some steps of a scheme, exactly, in the order of their places.
+fn on_mesh(mesh: Mesh, scheme: Scheme, points: &[Rational], levels: u32) -> Vec<Placed> {
     let hierarchy = Hierarchy::new(&Context::serial(), mesh, scheme, levels).expect("levels");
-    let mut values = values.to_vec();
+    let mut values = in_order(points);
     for level in 1..=levels {
-        let mut stages: Vec<Vec<Rational>> = vec![values];
+        let mut stages: Vec<Vec<Placed>> = vec![values];
         let each = |stage: usize, _: u32, row: &[(u32, Exact)]| {
             if stages.len() == stage + 1 {
                 stages.push(Vec::new());
             }
-            let value = row.iter().map(|(v, w)| &w.0 * &stages[stage][*v as usize]).sum();
-            stages[stage + 1].push(value);
+            let from = &stages[stage];
+            let value = |k: usize| row.iter().map(|(v, w)| &w.0 * &from[*v as usize][k]).sum();
+            let point = std::array::from_fn(value);
+            stages[stage + 1].push(point);
         };
         hierarchy.each_row(level, each).expect("rows");
         values = stages.pop().expect("a stage");
@@ -116,17 +133,22 @@ const FACTORABLE: [&str; 7] = [
     "dyn-floater-hormann:1/128",
 ];
 
-fn sorted(grid: &Grid<Rational>) -> Vec<Rational> {
-    let mut values = grid.points.clone();
-    values.sort();
-    values
+fn in_order(points: &[Rational]) -> Vec<Placed> {
+    let point = |p: &[Rational]| std::array::from_fn(|k| p[k].clone());
+    points.chunks_exact(PLACED).map(point).collect()
+}
+
+fn sorted(grid: &Grid<Rational>) -> Vec<Placed> {
+    let mut points = in_order(&grid.points);
+    points.sort();
+    points
 }
 
 #[test]
 fn closed_grids_are_what_the_mesh_becomes() {
     for (s, name) in FACTORABLE.iter().enumerate() {
         let mask = named(name);
-        let grid = random_grid(4, 5, Ends::Closed, s as u64);
+        let grid = placed_grid(4, 5, Ends::Closed, s as u64);
         let refined = grid.refine(&Context::serial(), [&mask, &mask], 2).expect("a grid");
         let expected = on_mesh(mesh(&grid, true, false), scheme_of(&mask), &grid.points, 2);
         assert!(sorted(&refined) == expected, "{name}");
@@ -138,12 +160,15 @@ fn open_grids_are_what_the_mesh_becomes_inside() {
     for (s, name) in FACTORABLE.iter().enumerate() {
         let mask = named(name);
         let (rows, columns) = (13, 12);
-        let grid = random_grid(rows, columns, Ends::Dropped, 50 + s as u64);
+        let grid = placed_grid(rows, columns, Ends::Dropped, 50 + s as u64);
         let refined = grid.refine(&Context::serial(), [&mask, &mask], 2).expect("a grid");
         let all = on_mesh(mesh(&grid, false, false), scheme_of(&mask), &grid.points, 2);
-        let missing = refined.points.iter().filter(|value| all.binary_search(value).is_err());
+        let points = sorted(&refined);
+        let missing = points.iter().filter(|point| all.binary_search(point).is_err());
         assert_eq!(missing.count(), 0, "{name}");
-        assert!(refined.points.len() > 30, "{name}: {}", refined.points.len());
+        assert!(points.len() > 30, "{name}: {}", points.len());
+        let places = points.windows(2).all(|pair| pair[0][..2] != pair[1][..2]);
+        assert!(places, "{name}: two points of one place");
     }
 }
 
@@ -153,7 +178,7 @@ fn open_dual_grids_are_what_the_mesh_becomes_everywhere() {
     for name in ["chaikin", "three-point:1/32", "b-spline:4"] {
         let mask = named(name);
         for (rows, columns) in [(2, 2), (2, 5), (4, 3)] {
-            let grid = random_grid(rows, columns, Ends::Kept, 90);
+            let grid = placed_grid(rows, columns, Ends::Kept, 90);
             let refined = grid.refine(&Context::serial(), [&mask, &mask], 3).expect("a grid");
             let expected = on_mesh(mesh(&grid, false, false), scheme_of(&mask), &grid.points, 3);
             assert!(sorted(&refined) == expected, "{name}, {rows} x {columns}");
@@ -202,7 +227,7 @@ fn the_box_spline_is_loops_scheme() {
     let symbol = product.scaled(&ratio(1, 16));
     let coefficients = (0..5).flat_map(|i| (0..5).map(move |j| [i, j])).map(|at| symbol.at(at));
     let mask = GridMask::new([2, 2], [-2, -2], 5, coefficients.collect()).expect("a mask");
-    let grid = random_grid(5, 6, Ends::Closed, 77);
+    let grid = placed_grid(5, 6, Ends::Closed, 77);
     let refined = grid.refine_by(&Context::serial(), &mask, 2).expect("a grid");
     let expected = on_mesh(mesh(&grid, true, true), Scheme::loop_triangles(), &grid.points, 2);
     assert!(sorted(&refined) == expected);

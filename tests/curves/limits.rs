@@ -28,7 +28,8 @@ fn masks_that_are_none() {
     let parse = |text: &str, arity| Mask::parse(text, arity, None);
     is(parse("", 2), ErrorKind::InvalidText);
     is(parse("1/2,one,1/2", 2), ErrorKind::InvalidText);
-    is(parse("1e400,1", 2), ErrorKind::InvalidText);
+    is(parse("1e400,1", 2), ErrorKind::ParameterOutOfRange);
+    is(parse("1e401,1", 2), ErrorKind::ParameterOutOfRange);
     is(parse("1/0,1", 2), ErrorKind::InvalidText);
     is(parse("1/4,3/4,3/4", 2), ErrorKind::ParameterOutOfRange);
     is(parse("1,1", 0), ErrorKind::ParameterOutOfRange);

@@ -44,9 +44,9 @@ pub enum Certificate {
 /// Bounds on a joint spectral radius.
 #[derive(Debug, Clone, PartialEq)]
 pub struct JointRadius {
-    /// Not above the radius.
+    /// Not above the radius; the largest double where it is beyond.
     pub low: f64,
-    /// Not below the radius.
+    /// Not below the radius; infinite where no double is.
     pub high: f64,
     /// The radius itself where it is known as a rational number.
     pub exact: Option<Rational>,
@@ -82,6 +82,20 @@ impl JointRadius {
         match by_norm(context, &matrices)? {
             Some(exact) => Ok(exact),
             None => by_polytope(context, &matrices),
+        }
+    }
+}
+
+impl JointRadius {
+    /// The radius of `scale` times the kernel, a positive number.
+    pub(super) fn scaled(self, scale: &Rational) -> Self {
+        let times = |bound: f64| from_f64(bound).map_or(f64::INFINITY, |x| to_f64(&(x * scale)));
+        Self {
+            // Outwards by more than what the product is rounded.
+            low: (times(self.low) * (1.0 - 1e-15)).min(f64::MAX),
+            high: times(self.high) * (1.0 + 1e-15),
+            exact: self.exact.map(|exact| exact * scale),
+            ..self
         }
     }
 }

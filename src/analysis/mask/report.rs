@@ -8,7 +8,7 @@ use super::reproduction::Degrees;
 use super::sum_rules::Smoothing;
 use crate::base::{Context, Result};
 use crate::curve::rational::{ratio, to_f64};
-use crate::curve::{Mask, Parametrisation, Rational};
+use crate::curve::{Laurent, Mask, Parametrisation, Rational};
 
 /// How far an analysis goes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -95,8 +95,12 @@ impl Holder {
     /// # Errors
     /// [`crate::ErrorKind::Cancelled`].
     pub fn of(context: &Context, mask: &Mask, smoothing: &Smoothing) -> Result<Self> {
-        let radius = JointRadius::of(context, mask.arity(), &smoothing.kernel)?;
         let m = mask.arity();
+        let shift = surplus(m, &smoothing.kernel);
+        if shift > 0 {
+            return Self::beyond_doubles(context, m, &smoothing.kernel, shift);
+        }
+        let radius = JointRadius::of(context, m, &smoothing.kernel)?;
         if let Some(exact) = &radius.exact {
             let exponent = exact_exponent(m, exact).unwrap_or_else(|| exponent(m, to_f64(exact)));
             return Ok(Self { low: exponent, high: exponent, radius });
@@ -106,10 +110,32 @@ impl Holder {
         let apart = 1e-14 * (1.0 + low.abs());
         Ok(Self { low: low - apart, high: high + apart, radius })
     }
+
+    /// The same for a kernel that doubles are too small for: ρ(mˢK) = mˢρ(K), and the exponent
+    /// of mˢK is that of K less s.
+    fn beyond_doubles(context: &Context, m: usize, kernel: &Laurent, shift: usize) -> Result<Self> {
+        let scale = pow(ratio(m as i64, 1), shift);
+        let small = JointRadius::of(context, m, &kernel.scaled(&scale.recip()))?;
+        let apart = 1e-14 * (1.0 + shift as f64);
+        let bound = |radius: f64, away: f64| exponent(m, radius) - shift as f64 + away;
+        let (low, high) = (bound(small.high, -apart), bound(small.low, apart));
+        Ok(Self { low, high, radius: small.scaled(&scale) })
+    }
 }
 
+/// s for a kernel that is to be divided by mˢ, so that doubles hold what is made of it; 0 for
+/// all but the most unusual.
+fn surplus(m: usize, kernel: &Laurent) -> usize {
+    /// Far below the largest double: norms, sums of coefficients, fit as well.
+    const MOST_BITS: u64 = 512;
+    let bits = |c: &Rational| c.numer().bits().saturating_sub(c.denom().bits());
+    let most = kernel.coefficients().iter().map(bits).max().unwrap_or(0);
+    most.saturating_sub(MOST_BITS).div_ceil(u64::from(m.ilog2())) as usize
+}
+
+/// Of the radius 1 it is 0, which has no sign.
 fn exponent(arity: usize, radius: f64) -> f64 {
-    -libm::log(radius) / libm::log(arity as f64)
+    -libm::log(radius) / libm::log(arity as f64) + 0.0
 }
 
 /// n if the radius is m⁻ⁿ.

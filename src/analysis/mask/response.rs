@@ -25,7 +25,8 @@ pub struct Response {
     pub gain: f64,
     /// 1 − gain: the part of the radius that a regular polygon loses. Negative if it grows.
     pub shrink: f64,
-    /// The root of the summed squares of the ripples' amplitudes, relative to the gain.
+    /// The root of the summed squares of the ripples' amplitudes, relative to the gain; infinite
+    /// where they are there and the wave is not.
     pub artifact: f64,
 }
 
@@ -35,7 +36,9 @@ impl Response {
     /// Accurate to about 1e-12; ripples beyond the 64th on either side are left out.
     ///
     /// # Errors
-    /// [`ErrorKind::ParameterOutOfRange`] for less than 2 points or what is not finite.
+    /// [`ErrorKind::ParameterOutOfRange`] for less than 2 points or what is not finite;
+    /// [`ErrorKind::Overflow`] for amplitudes beyond the range of doubles, as masks with
+    /// coefficients of hundreds of digits have.
     pub fn of(mask: &Mask, points: f64) -> Result<Self> {
         if !(points.is_finite() && points >= 2.0) {
             let message = format!("{points} points per period: at least 2 are needed");
@@ -46,7 +49,12 @@ impl Response {
         let gain = symbol.limit(omega);
         let ripple = |n: i32| symbol.limit(omega + TAU * f64::from(n)).powi(2);
         let ripples: f64 = (1..=RIPPLES).map(|n| ripple(n) + ripple(-n)).sum();
-        Ok(Self { gain, shrink: 1.0 - gain, artifact: ripples.sqrt() / gain })
+        if !(gain.is_finite() && ripples.is_finite()) {
+            let message = "the amplitude of a wave is beyond the range of doubles";
+            return Err(Error::new(ErrorKind::Overflow, message));
+        }
+        let artifact = if ripples == 0.0 { 0.0 } else { ripples.sqrt() / gain };
+        Ok(Self { gain, shrink: 1.0 - gain, artifact })
     }
 }
 

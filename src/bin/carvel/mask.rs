@@ -4,6 +4,7 @@ use crate::args::{AnalyseArgs, MaskArgs, MaskSource};
 use crate::exit::{Doing, Exit, Failure};
 use crate::session::Session;
 use crate::{plot, report};
+use carvel::ErrorKind;
 use carvel::analysis::mask::{
     AffineFamily, Analysis, Certificate, Effort, ParameterRange, Response,
 };
@@ -27,7 +28,7 @@ pub fn analyse(args: &AnalyseArgs, source: MaskSource) -> Result<Exit, Failure> 
     let effort = Effort::default();
     let found = Analysis::of(&session.context, &mask, effort).map_err(failed)?;
     let ranges = family.map(|family| ranges(&session, &family, options)).transpose()?;
-    let wave = Response::of(&mask, WAVE).map_err(failed)?;
+    let wave = wave(&mask).map_err(failed)?;
     if let (Some(path), Some(kind)) = (&args.plot, kind) {
         let ranges = options.range.as_deref().zip(ranges.as_deref());
         let figure = plot::mask::figure(&session.context, &mask, found.continuity, ranges);
@@ -42,6 +43,14 @@ pub fn analyse(args: &AnalyseArgs, source: MaskSource) -> Result<Exit, Failure> 
         return args.print(&report::document(&document));
     }
     args.print(&text(&mask, &found, wave, options, ranges.as_deref()))
+}
+
+/// Shrink and artifact; none where doubles do not hold them.
+fn wave(mask: &Mask) -> carvel::Result<Option<Response>> {
+    match Response::of(mask, WAVE) {
+        Err(e) if e.kind() == ErrorKind::Overflow => Ok(None),
+        wave => wave.map(Some),
+    }
 }
 
 /// For each order the values for which the family is smooth, up to the first without any.
@@ -68,7 +77,7 @@ fn strings(values: &[Rational]) -> Value {
     values.iter().map(ToString::to_string).collect()
 }
 
-fn document(mask: &Mask, found: &Analysis, wave: Response) -> Value {
+fn document(mask: &Mask, found: &Analysis, wave: Option<Response>) -> Value {
     let proof = found.contractivity.as_ref();
     let radius = &found.holder.radius;
     json!({
@@ -101,8 +110,8 @@ fn document(mask: &Mask, found: &Analysis, wave: Response) -> Value {
         "factors": factors_document(mask),
         "wave": {
             "points": WAVE,
-            "shrink": wave.shrink,
-            "artifact": wave.artifact,
+            "shrink": wave.map(|wave| wave.shrink),
+            "artifact": wave.map(|wave| wave.artifact),
         },
     })
 }
@@ -140,7 +149,7 @@ fn ranges_document(ranges: &[Vec<ParameterRange>]) -> Value {
 fn text(
     mask: &Mask,
     found: &Analysis,
-    wave: Response,
+    wave: Option<Response>,
     args: &MaskArgs,
     ranges: Option<&[Vec<ParameterRange>]>,
 ) -> String {
@@ -162,15 +171,21 @@ fn text(
             format!("degree {} generated, {} reproduced", degrees.generation, degrees.reproduction)
         }),
         ("6 points a period", {
-            format!("shrink {:.6}, artifact {:.2e}", wave.shrink, wave.artifact)
+            wave.map_or("beyond the range of doubles".to_owned(), |wave| {
+                format!("shrink {}, artifact {:.2e}", fixed(wave.shrink, 6), wave.artifact)
+            })
         }),
         ("on meshes", on_meshes(mask)),
     ];
     let name = args.range.as_deref().unwrap_or_default();
-    let proved = ranges.iter().flat_map(|ranges| ranges.iter().enumerate());
-    let ranges: Vec<_> =
-        proved.map(|(k, list)| (format!("C^{k}"), range_text(name, list))).collect();
+    let proved = |(k, list): (usize, &Vec<_>)| (format!("C^{k}"), range_text(name, list));
+    let ranges: Option<Vec<_>> = ranges.map(|all| all.iter().enumerate().map(proved).collect());
+    let none = ranges.as_ref().is_some_and(Vec::is_empty);
+    let [low, high] = &args.within;
+    let none = none.then(|| ("C^0", format!("no {name} found from {low} to {high}")));
+    let ranges = ranges.unwrap_or_default();
     lines.extend(ranges.iter().map(|(k, text)| (k.as_str(), text.clone())));
+    lines.extend(none);
     let mut text = String::new();
     for (label, value) in lines {
         // Writing to a string does not fail.
@@ -188,6 +203,13 @@ fn list(mask: &Mask) -> String {
 fn short(value: &Rational) -> String {
     let text = value.to_string();
     if text.len() <= 24 { text } else { format!("{:.12}", to_f64(value)) }
+}
+
+/// A number with some digits behind the point; what is rounded to 0 has no sign.
+fn fixed(value: f64, digits: usize) -> String {
+    let text = format!("{value:.digits$}");
+    let is_zero = text.bytes().all(|b| matches!(b, b'-' | b'0' | b'.'));
+    if is_zero { text.trim_start_matches('-').to_owned() } else { text }
 }
 
 fn exponent(found: &Analysis) -> String {
@@ -218,10 +240,10 @@ fn range_text(name: &str, list: &[ParameterRange]) -> String {
     let range = |range: &ParameterRange| match range {
         ParameterRange::Single(w) => format!("{name} = {w} alone"),
         ParameterRange::Interval { low, high } => format!(
-            "{name} from {:.5}{} to {:.5}{}",
-            low.middle(),
+            "{name} from {}{} to {}{}",
+            fixed(low.middle(), 5),
             open(low),
-            high.middle(),
+            fixed(high.middle(), 5),
             open(high),
         ),
     };

@@ -131,7 +131,8 @@ pub fn family(name: &str) -> Result<&'static Family> {
 /// `b-spline:3,2`.
 ///
 /// # Errors
-/// [`ErrorKind::InvalidText`] for an unknown name or what is no number; as [`Family::mask`].
+/// [`ErrorKind::InvalidText`] for an unknown name; as [`rational::parse`] for what is no number;
+/// as [`Family::mask`].
 pub fn mask(text: &str) -> Result<Mask> {
     let (family, parameters) = parse(text)?;
     family.mask(&parameters)

@@ -182,6 +182,82 @@ static void check_grid(void)
     carvel_mask_destroy(along);
 }
 
+/* Loop's regular rule on a closed grid, which is no product; a 1 becomes the mask itself. */
+static void check_bivariate(void)
+{
+    static const int64_t weights[25] = {1, 2, 1, 0, 0, 2, 6, 6, 2, 0, 1, 6, 10,
+                                        6, 1, 0, 2, 6, 6, 2, 0, 0, 1, 2, 1};
+    carvel_fraction list[25];
+    carvel_grid_mask *mask = NULL;
+    double grid[16] = {0}, out[64];
+    float ones[16], constant[64];
+    uint64_t rows = 0, columns = 0;
+    int i, j;
+    carvel_const_values_f64 from = from64(grid, 16, 1);
+    carvel_values_f64 to = to64(out, 64, 1);
+    carvel_const_values_f32 from32;
+    carvel_values_f32 to32;
+    check_context("bivariate");
+    for (i = 0; i < 25; i++) {
+        list[i].numerator = weights[i];
+        list[i].denominator = 16;
+    }
+    CHECK_OK(carvel_grid_mask_create(list, 25, 5, 2, 2, -2, -2, &mask, failure));
+    CHECK_OK(carvel_grid_mask_counts(mask, CARVEL_ENDS_CLOSED, CARVEL_ENDS_CLOSED, 4, 4, 1, &rows,
+                                     &columns, failure));
+    CHECK(rows == 8 && columns == 8);
+#define REFINE(ends, width_of_rows) \
+    carvel_grid_mask_refine_f64(mask, NULL, ends, CARVEL_ENDS_CLOSED, width_of_rows, 1, &from, \
+                                &to, failure)
+    /* Of point (1, 2), at (2, 4) of the refined grid: columns 2 to 6, rows 0 to 4. */
+    grid[1 * 4 + 2] = 16;
+    CHECK_OK(REFINE(CARVEL_ENDS_CLOSED, 4));
+    for (i = 0; i < 8; i++)
+        for (j = 0; j < 8; j++)
+            CHECK(out[i * 8 + j] ==
+                  (i < 5 && j >= 2 && j < 7 ? (double)weights[i * 5 + j - 2] : 0));
+    for (i = 0; i < 16; i++)
+        ones[i] = 1;
+    from32.data = ones, from32.count = 16, from32.width = 1, from32.stride = 0;
+    to32.data = constant, to32.count = 64, to32.width = 1, to32.stride = 0;
+    CHECK_OK(carvel_grid_mask_refine_f32(mask, NULL, 0, 0, 4, 1, &from32, &to32, failure));
+    for (i = 0; i < 64; i++)
+        CHECK(constant[i] == 1);
+    CHECK_STATUS(CARVEL_STATUS_UNSUPPORTED, REFINE(CARVEL_ENDS_KEPT, 4));
+    CHECK_STATUS(CARVEL_STATUS_PARAMETER_OUT_OF_RANGE, REFINE(9, 4));
+    CHECK_STATUS(CARVEL_STATUS_LENGTH_MISMATCH, REFINE(CARVEL_ENDS_CLOSED, 3));
+    CHECK_STATUS(CARVEL_STATUS_LENGTH_MISMATCH, REFINE(CARVEL_ENDS_CLOSED, 0));
+    to.count = 63;
+    CHECK_STATUS(CARVEL_STATUS_BUFFER_TOO_SMALL, REFINE(CARVEL_ENDS_CLOSED, 4));
+    CHECK_STATUS(CARVEL_STATUS_UNSUPPORTED,
+                 carvel_grid_mask_counts(mask, CARVEL_ENDS_ANCHORED, 0, 4, 4, 1, &rows, &columns,
+                                         failure));
+    CHECK_STATUS(CARVEL_STATUS_OVERLAP,
+                 carvel_grid_mask_counts(mask, 0, 0, 4, 4, 1, &rows, &rows, failure));
+    CHECK_STATUS(CARVEL_STATUS_NULL_POINTER,
+                 carvel_grid_mask_counts(mask, 0, 0, 4, 4, 1, NULL, &rows, failure));
+    CHECK_STATUS(CARVEL_STATUS_TOO_LARGE,
+                 carvel_grid_mask_counts(mask, 0, 0, UINT64_MAX, 4, 1, &rows, &columns, failure));
+    carvel_grid_mask_destroy(mask);
+    carvel_grid_mask_destroy(NULL);
+#define CREATE(list, count, columns, arity, offset) \
+    carvel_grid_mask_create(list, count, columns, arity, 2, offset, 0, &mask, failure)
+    CHECK_STATUS(CARVEL_STATUS_PARAMETER_OUT_OF_RANGE, CREATE(list, 25, 4, 2, 0));
+    CHECK(mask == NULL);
+    CHECK_STATUS(CARVEL_STATUS_PARAMETER_OUT_OF_RANGE, CREATE(list, 0, 5, 2, 0));
+    CHECK_STATUS(CARVEL_STATUS_PARAMETER_OUT_OF_RANGE, CREATE(list, 20, 5, 2, 0));
+    CHECK_STATUS(CARVEL_STATUS_PARAMETER_OUT_OF_RANGE, CREATE(list, 25, 5, 1, 0));
+    CHECK_STATUS(CARVEL_STATUS_PARAMETER_OUT_OF_RANGE, CREATE(list, 25, 5, 2, 1 << 21));
+    CHECK_STATUS(CARVEL_STATUS_TOO_LARGE, CREATE(list, UINT64_MAX, 5, 2, 0));
+    CHECK_STATUS(CARVEL_STATUS_NULL_POINTER, CREATE(NULL, 25, 5, 2, 0));
+    list[3].denominator = 0;
+    CHECK_STATUS(CARVEL_STATUS_INVALID_NUMBER, CREATE(list, 25, 5, 2, 0));
+    CHECK_STATUS(CARVEL_STATUS_NULL_POINTER,
+                 carvel_grid_mask_create(list, 25, 5, 2, 2, 0, 0, NULL, failure));
+#undef CREATE
+#undef REFINE
+}
+
 /* Six points of a circle stay on it; a scheme without a mask says so. */
 static void check_tension(void)
 {
@@ -309,6 +385,161 @@ static void check_texts(void)
     carvel_mask_destroy(NULL);
 }
 
+/* The offset moves the mask, and with it tau and the samples of the limit. */
+static void check_offset(void)
+{
+    carvel_mask *it = NULL, *centred = mask_of("[1,2,1]/2", 2);
+    carvel_mask_analysis analysis;
+    double hat[7];
+    int64_t first = 0;
+    uint64_t count = 0;
+    check_context("offset");
+    CHECK_OK(carvel_mask_analysis_init(&analysis, sizeof analysis));
+    CHECK_OK(carvel_mask_create_with_offset("[1,2,1]/2", 2, 3, &it, failure));
+    CHECK_OK(carvel_mask_analyse(it, NULL, &analysis, failure));
+    CHECK(analysis.offset == 3 && analysis.tau.numerator == 4 && analysis.tau.denominator == 1);
+    CHECK_OK(carvel_mask_sample_limit(it, NULL, 0, 2, &first, NULL, 0, &count, failure));
+    CHECK_UINT(7, count);
+    /* From 3 to 5, the hat of the linear B-spline, in quarters. */
+    CHECK(first == 13);
+    CHECK_OK(carvel_mask_sample_limit(centred, NULL, 0, 2, &first, hat, 7, NULL, failure));
+    CHECK(first == -3 && hat[0] == 0.25 && hat[3] == 1 && hat[6] == 0.25);
+    CHECK_STATUS(CARVEL_STATUS_BUFFER_TOO_SMALL,
+                 carvel_mask_sample_limit(it, NULL, 0, 2, &first, hat, 6, &count, failure));
+    CHECK(first == -3);
+    CHECK_STATUS(CARVEL_STATUS_OVERLAP,
+                 carvel_mask_sample_limit(it, NULL, 0, 2, (int64_t *)(void *)hat, hat, 7, NULL,
+                                          failure));
+    CHECK_STATUS(CARVEL_STATUS_OVERLAP,
+                 carvel_mask_sample_limit(it, NULL, 0, 2, (int64_t *)(void *)&count, NULL, 0,
+                                          &count, failure));
+    CHECK_STATUS(CARVEL_STATUS_NULL_POINTER,
+                 carvel_mask_sample_limit(it, NULL, 0, 2, NULL, NULL, 7, NULL, failure));
+    CHECK_STATUS(CARVEL_STATUS_NULL_POINTER,
+                 carvel_mask_sample_limit(NULL, NULL, 0, 2, NULL, NULL, 0, NULL, failure));
+    CHECK_STATUS(CARVEL_STATUS_UNSUPPORTED,
+                 carvel_mask_sample_limit(it, NULL, 2, 2, NULL, NULL, 0, NULL, failure));
+    CHECK_STATUS(CARVEL_STATUS_TOO_LARGE,
+                 carvel_mask_sample_limit(it, NULL, 0, 60, NULL, NULL, 0, NULL, failure));
+    carvel_mask_destroy(it);
+    CHECK_STATUS(CARVEL_STATUS_PARAMETER_OUT_OF_RANGE,
+                 carvel_mask_create_with_offset("chaikin", 0, 1, &it, failure));
+    CHECK(it == NULL);
+    CHECK_STATUS(CARVEL_STATUS_PARAMETER_OUT_OF_RANGE,
+                 carvel_mask_create_with_offset("1,1", 2, 1 << 21, &it, failure));
+    CHECK_STATUS(CARVEL_STATUS_NULL_POINTER,
+                 carvel_mask_create_with_offset(NULL, 2, 0, &it, failure));
+    it = mask_of("tension-four-point", 0);
+    CHECK_STATUS(CARVEL_STATUS_UNSUPPORTED,
+                 carvel_mask_sample_limit(it, NULL, 0, 1, NULL, NULL, 0, NULL, failure));
+    carvel_mask_destroy(it);
+    carvel_mask_destroy(centred);
+}
+
+/* Every name makes a mask, and so does every default; all texts are there. */
+static void check_catalogue(void)
+{
+    carvel_catalogue_entry entry;
+    carvel_catalogue_parameter parameter;
+    uint64_t i, k, stationary = 0, parameters = 0;
+    check_context("catalogue");
+    CHECK_OK(carvel_catalogue_entry_init(&entry, sizeof entry));
+    CHECK_OK(carvel_catalogue_parameter_init(&parameter, sizeof parameter));
+    CHECK_UINT(22, carvel_catalogue_count());
+    for (i = 0; i < carvel_catalogue_count(); i++) {
+        char with_default[128];
+        carvel_mask *mask;
+        CHECK_OK(carvel_catalogue_entry_at(i, &entry, failure));
+        CHECK(*entry.summary && *entry.authors && *entry.year && *entry.formula);
+        CHECK(*entry.attribution && !*entry.limit == entry.is_stationary);
+        carvel_mask_destroy(mask_of(entry.name, 0));
+        for (k = 0; k < entry.parameter_count; k++) {
+            CHECK_OK(carvel_catalogue_parameter_at(i, k, &parameter, failure));
+            CHECK(*parameter.name && *parameter.range);
+            if (k == 0) {
+                CHECK(strlen(entry.name) + strlen(parameter.default_value) < 126);
+                strcpy(with_default, entry.name);
+                strcat(with_default, ":");
+                strcat(with_default, parameter.default_value);
+                mask = mask_of(with_default, 0);
+                carvel_mask_destroy(mask);
+            }
+        }
+        CHECK_STATUS(CARVEL_STATUS_INDEX_OUT_OF_RANGE,
+                     carvel_catalogue_parameter_at(i, k, &parameter, failure));
+        stationary += (uint64_t)entry.is_stationary;
+        parameters += entry.parameter_count;
+    }
+    CHECK_UINT(19, stationary);
+    CHECK(parameters > 20);
+    CHECK_OK(carvel_catalogue_entry_at(1, &entry, failure));
+    CHECK(strcmp(entry.name, "chaikin") == 0 && entry.parameter_count == 0);
+    CHECK_OK(carvel_catalogue_entry_at(4, &entry, failure));
+    CHECK(strcmp(entry.name, "four-point") == 0 && entry.parameter_count == 1);
+    CHECK_OK(carvel_catalogue_parameter_at(4, 0, &parameter, failure));
+    CHECK(strcmp(parameter.name, "w") == 0 && parameter.is_free == 1);
+    CHECK(strcmp(parameter.default_value, "1/16") == 0);
+    CHECK_STATUS(CARVEL_STATUS_INDEX_OUT_OF_RANGE, carvel_catalogue_entry_at(i, &entry, failure));
+    CHECK_STATUS(CARVEL_STATUS_INDEX_OUT_OF_RANGE,
+                 carvel_catalogue_parameter_at(UINT64_MAX, 0, &parameter, failure));
+    CHECK_STATUS(CARVEL_STATUS_NULL_POINTER, carvel_catalogue_entry_at(0, NULL, failure));
+    CHECK_STATUS(CARVEL_STATUS_NULL_POINTER, carvel_catalogue_parameter_at(0, 0, NULL, failure));
+    entry.struct_size = 3;
+    CHECK_STATUS(CARVEL_STATUS_STRUCT_SIZE, carvel_catalogue_entry_at(0, &entry, failure));
+    CHECK_STATUS(CARVEL_STATUS_STRUCT_SIZE, carvel_catalogue_parameter_init(&parameter, 3));
+    CHECK_STATUS(CARVEL_STATUS_NULL_POINTER, carvel_catalogue_entry_init(NULL, sizeof entry));
+}
+
+static int is_between(carvel_fraction a, double value, carvel_fraction b)
+{
+    const double low = (double)a.numerator / (double)a.denominator;
+    const double high = (double)b.numerator / (double)b.denominator;
+    return low <= value && value <= high && high - low < 1e-3;
+}
+
+/* The founding paper's family: C2 for 0 < w < 1/4, C3 for 1/16 alone. */
+static void check_ranges(void)
+{
+    const carvel_fraction low = {-1, 1}, high = {1, 1}, close = {1, 1000}, none = {0, 0};
+    carvel_context *context = context_of(1);
+    carvel_parameter_range found[4];
+    uint64_t count = 0;
+    check_context("ranges");
+#define RANGES(name, parameter, k, from, tolerance, out, capacity) \
+    carvel_catalogue_ranges(name, parameter, NULL, k, from, high, tolerance, out, capacity, \
+                            &count, failure)
+    CHECK_OK(RANGES("three-point", "w", 2, low, close, found, 4));
+    CHECK_UINT(1, count);
+    CHECK(is_between(found->low_outside, 0, found->low_inside));
+    CHECK(is_between(found->high_inside, 0.25, found->high_outside));
+    CHECK_OK(RANGES("three-point", "w", 3, low, close, NULL, 0));
+    CHECK_UINT(1, count);
+    CHECK_OK(RANGES("three-point", "w", 3, low, close, found, 4));
+    CHECK(found->low_inside.numerator == 1 && found->low_inside.denominator == 16);
+    CHECK(found->high_inside.denominator == 16 && found->high_outside.denominator == 0);
+    CHECK_OK(RANGES("three-point", "w", 4, low, close, found, 4));
+    CHECK_UINT(0, count);
+    CHECK_STATUS(CARVEL_STATUS_PARAMETER_OUT_OF_RANGE,
+                 RANGES("three-point", "v", 0, low, close, found, 4));
+    CHECK_STATUS(CARVEL_STATUS_PARAMETER_OUT_OF_RANGE,
+                 RANGES("b-spline", "degree", 0, low, close, found, 4));
+    CHECK_STATUS(CARVEL_STATUS_PARAMETER_OUT_OF_RANGE,
+                 RANGES("three-point", "w", 0, high, close, found, 4));
+    CHECK_STATUS(CARVEL_STATUS_INVALID_NUMBER, RANGES("three", "w", 0, low, close, found, 4));
+    CHECK_STATUS(CARVEL_STATUS_INVALID_NUMBER, RANGES("\xff", "w", 0, low, close, found, 4));
+    CHECK_STATUS(CARVEL_STATUS_INVALID_NUMBER,
+                 RANGES("three-point", "w", 0, none, close, found, 4));
+    CHECK_STATUS(CARVEL_STATUS_NULL_POINTER, RANGES(NULL, "w", 0, low, close, found, 4));
+    CHECK_STATUS(CARVEL_STATUS_NULL_POINTER, RANGES("three-point", NULL, 0, low, close, found, 4));
+    CHECK_STATUS(CARVEL_STATUS_NULL_POINTER, RANGES("three-point", "w", 3, low, close, NULL, 4));
+    carvel_context_cancel(context);
+    CHECK_STATUS(CARVEL_STATUS_CANCELLED,
+                 carvel_catalogue_ranges("three-point", "w", context, 2, low, high, close, found, 4,
+                                         NULL, failure));
+    carvel_context_destroy(context);
+#undef RANGES
+}
+
 static void check_refused(void)
 {
     static const double line[] = {0, 1, 2, 3};
@@ -397,9 +628,13 @@ int main(void)
     check_ends();
     check_limits();
     check_grid();
+    check_bivariate();
     check_tension();
     check_paper();
     check_texts();
+    check_offset();
+    check_catalogue();
+    check_ranges();
     check_refused();
     return check_end();
 }

@@ -3,6 +3,7 @@
 use crate::exit::{Doing, Failure};
 use carvel::analysis::mask::AffineFamily;
 use carvel::curve::catalogue::{FAMILIES, NON_STATIONARY};
+use carvel::curve::rational::ratio;
 use carvel::curve::{Mask, Rational, catalogue, rational};
 use clap::Args;
 
@@ -80,9 +81,24 @@ fn check_mask(text: &str) -> Result<(), Failure> {
     Err(Failure::usage(format!("the rules of {name} change: it has no mask; {limit} is near it")))
 }
 
+/// The names of the catalogue.
+fn all_names() -> impl Iterator<Item = &'static str> {
+    let stationary = FAMILIES.iter().map(|family| family.name);
+    stationary.chain(NON_STATIONARY.iter().map(|family| family.name))
+}
+
 /// True if a text names a family of the catalogue, with or without parameters.
 pub(super) fn is_family(text: &str) -> bool {
-    catalogue::family(family_name(text)).is_ok()
+    all_names().any(|known| known == family_name(text))
+}
+
+/// The name of the catalogue that is nearest to a text, if it may have been meant.
+pub(super) fn near(text: &str) -> Option<&'static str> {
+    /// What clap takes to be a typing error.
+    const NEAR: f64 = 0.7;
+    let likeness = |known: &&str| strsim::jaro(family_name(text), known);
+    let near = all_names().max_by(|a, b| likeness(a).total_cmp(&likeness(b)));
+    near.filter(|known| likeness(known) > NEAR)
 }
 
 /// What stands before the parameters.
@@ -95,20 +111,12 @@ pub(super) fn family_name(text: &str) -> &str {
 /// # Errors
 /// A usage error.
 pub fn check_name(text: &str) -> Result<(), Failure> {
-    /// What clap takes to be a typing error.
-    const NEAR: f64 = 0.7;
-    let name = family_name(text);
-    let stationary = FAMILIES.iter().map(|family| family.name);
-    let all = || stationary.clone().chain(NON_STATIONARY.iter().map(|family| family.name));
-    if all().any(|known| known == name) {
+    if is_family(text) {
         return Ok(());
     }
-    let likeness = |known: &&str| strsim::jaro(name, known);
-    let near = all().max_by(|a, b| likeness(a).total_cmp(&likeness(b)));
-    let near = near.filter(|known| likeness(known) > NEAR);
-    let advice =
-        near.map_or("carvel catalogue lists all".to_owned(), |near| format!("'{near}' is near it"));
-    let shown: String = name.chars().take(40).collect();
+    let all = || "carvel catalogue lists all".to_owned();
+    let advice = near(text).map_or_else(all, |near| format!("'{near}' is near it"));
+    let shown: String = family_name(text).chars().take(40).collect();
     let shown = crate::text::one_line(&shown);
     Err(Failure::usage(format!("there is no scheme '{shown}' in the catalogue; {advice}")))
 }
@@ -140,20 +148,29 @@ pub struct MaskArgs {
 
 /// Two numbers such as -1/2..0.3.
 fn interval(text: &str) -> Result<[Rational; 2], String> {
+    /// Far beyond any value for which schemes converge; the first look has 33 values.
+    const MOST: i64 = 1_000_000;
     let (low, high) = text.split_once("..").ok_or("two numbers such as -1/2..0.3 are meant")?;
     let number = |text: &str| rational::parse(text).map_err(|e| e.to_string());
-    Ok([number(low)?, number(high)?])
+    let [low, high] = [number(low)?, number(high)?];
+    let most = ratio(MOST, 1);
+    if low < -&most || high > most {
+        return Err(format!("{MOST} is the largest end of a search"));
+    }
+    if low >= high {
+        return Err(format!("{low}..{high} is empty: the smaller number comes first"));
+    }
+    Ok([low, high])
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use carvel::curve::rational::ratio;
 
     #[test]
     fn intervals_are_two_numbers() {
         assert_eq!(interval("-1/2..0.25"), Ok([ratio(-1, 2), ratio(1, 4)]));
-        for text in ["", "..", "1", "1..", "a..b", "0..1/0"] {
+        for text in ["", "..", "1", "1..", "a..b", "0..1/0", "1..0", "1/2..0.5", "0..1e7"] {
             assert!(interval(text).is_err(), "{text}");
         }
     }

@@ -5,6 +5,7 @@ use carvel::scheme::{Creasing, Extraordinary, LoopWeights, TriangleRule};
 use carvel::{Boundary, CornerRule, FaceVaryingMode};
 use clap::ValueEnum;
 use clap::builder::{EnumValueParser, PossibleValue, TypedValueParser};
+use clap::error::{ContextKind, ContextValue};
 use std::ffi::OsStr;
 
 /// The names of schemes.
@@ -38,6 +39,9 @@ pub(super) enum SchemeName {
     Mask(String),
 }
 
+/// Where an error of clap keeps the name that is near.
+const SUGGESTION: ContextKind = ContextKind::SuggestedValue;
+
 /// Reads a scheme; of two with one name that on meshes.
 #[derive(Debug, Clone)]
 pub(super) struct SchemeParser;
@@ -52,9 +56,17 @@ impl TypedValueParser for SchemeParser {
         value: &OsStr,
     ) -> Result<SchemeName, clap::Error> {
         let on_meshes = EnumValueParser::<Name>::new().parse_ref(command, arg, value);
-        on_meshes.map(SchemeName::Mesh).or_else(|unknown| {
-            let mask = value.to_str().filter(|text| super::mask::is_family(text));
-            mask.map(|text| SchemeName::Mask(text.to_owned())).ok_or(unknown)
+        on_meshes.map(SchemeName::Mesh).or_else(|mut unknown| {
+            let text = value.to_str().unwrap_or_default();
+            if super::mask::is_family(text) {
+                return Ok(SchemeName::Mask(text.to_owned()));
+            }
+            // clap knows the schemes on meshes alone.
+            let near = super::mask::near(text).map(|name| ContextValue::String(name.to_owned()));
+            if let Some(near) = near.filter(|_| unknown.get(SUGGESTION).is_none()) {
+                unknown.insert(SUGGESTION, near);
+            }
+            Err(unknown)
         })
     }
 

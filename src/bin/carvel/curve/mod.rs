@@ -152,9 +152,15 @@ impl Run<'_> {
         Ok(Done { counts, width, notes, seconds: start.elapsed().as_secs_f64() })
     }
 
+    /// What is to be said of the input, and done with it.
+    fn notes<T: Number>(&self, control: &mut Polygons<T>) -> Vec<String> {
+        let single = (!self.args.grid).then(|| note_single_places(control)).flatten();
+        self.open_up(control).into_iter().chain(single).collect()
+    }
+
     /// Takes the last points of closed polygons off that repeat the first, and says so. Single
     /// numbers may well come again, and so may points of a row of a grid, unless all rows do so.
-    fn notes<T: Number>(&self, control: &mut Polygons<T>) -> Vec<String> {
+    fn open_up<T: Number>(&self, control: &mut Polygons<T>) -> Option<String> {
         let width = control.width;
         let repeats = |polygon: &Control<T>| {
             let points = &polygon.points;
@@ -162,7 +168,7 @@ impl Run<'_> {
             closed && points.len() > width && points[..width] == points[points.len() - width..]
         };
         if width == 1 || (self.args.grid && !control.list.iter().all(repeats)) {
-            return Vec::new();
+            return None;
         }
         let mut repeated = 0;
         for polygon in control.list.iter_mut().filter(|polygon| repeats(polygon)) {
@@ -171,7 +177,7 @@ impl Run<'_> {
         }
         let what = counted(repeated, "closed polygon");
         let note = format!("left out the last point of {what}, which repeats the first");
-        (repeated > 0).then_some(note).into_iter().collect()
+        (repeated > 0).then_some(note)
     }
 
     fn polygon<T: Number>(&self, control: Control<T>, width: usize) -> Polygon<T> {
@@ -335,6 +341,21 @@ impl Run<'_> {
         }
         report
     }
+}
+
+/// Polygons whose points are all at one place, where all schemes leave them. Single numbers are a
+/// constant function.
+fn note_single_places<T: Number>(control: &Polygons<T>) -> Option<String> {
+    let width = control.width;
+    let points = control.list.iter().map(|polygon| polygon.points.chunks_exact(width.max(1)));
+    let is_single = |mut points: std::slice::ChunksExact<T>| {
+        let first = points.next();
+        first.is_some() && points.all(|point| Some(point) == first)
+    };
+    let count = points.filter(|points| is_single(points.clone())).count();
+    let which = counted(count as u64, "polygon");
+    let note = format!("in {which} all points are at one place, and so is what is refined");
+    (width > 1 && count > 0).then_some(note)
 }
 
 /// Points in the plane; of one coordinate by their place. A closed polygon comes back.

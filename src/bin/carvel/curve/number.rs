@@ -1,5 +1,6 @@
 //! Coordinates as text.
 
+use carvel::ErrorKind;
 use carvel::curve::{Coordinate, Rational, rational};
 
 /// Why a field is no coordinate.
@@ -50,19 +51,11 @@ impl Number for f32 {
 
 impl Number for Rational {
     fn read(text: &str) -> Result<Self, Wrong> {
-        /// Decimal exponents of doubles, and some more.
-        const LARGEST: i32 = 400;
-        let (mantissa, exponent) = text.split_once(['e', 'E']).unwrap_or((text, "0"));
-        let number = rational::parse(mantissa.strip_suffix('.').unwrap_or(mantissa));
-        let exponent = exponent.parse::<i32>().map_err(|_| Wrong::Text);
-        match (number, exponent) {
-            (Ok(number), Ok(exponent)) if exponent.abs() <= LARGEST => {
-                Ok(number * Self::from_integer(10.into()).pow(exponent))
-            }
-            (Ok(_), Ok(_)) => Err(Wrong::Value),
+        rational::parse(text).map_err(|e| match e.kind() {
+            ErrorKind::ParameterOutOfRange => Wrong::Value,
             // No number, or an infinite one.
-            _ => Err(double(text).err().unwrap_or(Wrong::Text)),
-        }
+            _ => double(text).err().unwrap_or(Wrong::Text),
+        })
     }
 
     fn text(&self) -> String {

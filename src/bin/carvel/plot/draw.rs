@@ -164,6 +164,7 @@ fn draw_part<'a, B: DrawingBackend + 'a>(
 ) -> Result<()> {
     let (style, points) = (style(part, grid), finite(part));
     let drawn = match part.mark {
+        Mark::Nothing => return Ok(()),
         Mark::Line(_) => chart.draw_series([PathElement::new(points, style)]),
         Mark::Dots(radius) => {
             let radius = (radius * f64::from(grid)).round();
@@ -215,6 +216,7 @@ fn style(part: &Part, grid: u32) -> ShapeStyle {
         Mark::Line(width) => width,
         Mark::Dots(radius) => radius,
         Mark::Face => 0.5,
+        Mark::Nothing => 0.0,
     };
     rgb(part.color).stroke_width((width * f64::from(grid)).round().max(1.0) as u32)
 }

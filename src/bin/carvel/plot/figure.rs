@@ -76,6 +76,8 @@ pub enum Mark {
     Dots(f64),
     /// The inside of their polygon, and a thin outline.
     Face,
+    /// Not at all, but the panel has room for them.
+    Nothing,
 }
 
 /// Red, green and blue.
