@@ -120,6 +120,19 @@ impl<const R: usize> InnerLoop for Triangle<'_, R> {
     }
 }
 
+/// The same for points of one block.
+#[inline(always)]
+pub(super) fn triangle<const R: usize>(at: [f64; 2], points: &[Block; 12]) -> [Block; R] {
+    let weights = taps::<R>(at[0], at[1]);
+    let mut sums = [ZERO; R];
+    for i in 0..12 {
+        for record in 0..R {
+            sums[record] = plus(sums[record], weights[record][i], &points[i]);
+        }
+    }
+    sums
+}
+
 /// Weights of the twelve points, in the order of [`points`], for the position and derivatives by
 /// u and v, at barycentric coordinates (1 − u − v, u, v).
 ///
