@@ -114,8 +114,8 @@ impl Surface {
             let start = &way.start;
             match self.nodes[start.node as usize] {
                 Node::Split { .. } => {
-                    let cell = self.cell(start, values.as_flattened(), WIDTH);
-                    match self.patches().arrive(&cell, start, R == 1, scratch) {
+                    let cell = || self.cell(start, values.as_flattened(), WIDTH);
+                    match self.patches().arrive(cell, start, WIDTH, R == 1, scratch) {
                         Ok((place, Some(at))) => (way.place, way.at) = (place, at),
                         Ok((_, None)) => continue,
                         Err(error) => return Some((i, error)),

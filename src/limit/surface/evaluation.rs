@@ -45,6 +45,7 @@ impl Start {
 }
 
 /// The first cell of a corner: its control vertices, and values of all control vertices.
+#[derive(Clone, Copy)]
 pub(super) struct Cell<'a, T> {
     pub(super) vertices: &'a [u32],
     pub(super) values: &'a [T],
@@ -88,7 +89,8 @@ impl Patches<'_> {
         let mut origin: &[Block] = &[];
         match &self.nodes[start.node as usize] {
             Node::Split { .. } => {
-                let (place, at) = self.arrive(cell, start, out.len() == width, scratch)?;
+                let (place, at) =
+                    self.arrive(|| *cell, start, width, out.len() == width, scratch)?;
                 let place = scratch.memo.place(place);
                 let points;
                 (points, origin) = scratch.memo.points(place, blocks);
@@ -113,29 +115,30 @@ impl Patches<'_> {
 
     /// From the first cell of a sample down to a regular one, and where in it; or to one whose
     /// points are one, without.
-    pub(super) fn arrive<T: Scalar>(
+    pub(super) fn arrive<'a, T: Scalar>(
         &self,
-        cell: &Cell<'_, T>,
+        cell: impl FnOnce() -> Cell<'a, T>,
         start: &Start,
+        width: usize,
         position_only: bool,
         scratch: &mut Scratch,
     ) -> Result<(u32, Option<[f64; 2]>)> {
         let root = match scratch.memo.find(start.corner) {
             Some(root) => root,
-            None => self.root(cell, start, scratch)?,
+            None => self.root(&cell(), start, scratch)?,
         };
         let memo = &mut scratch.memo;
         let (part, inside) = memo.root(root).kind.part(start.at);
         let place = match memo.part(root, part) {
             Some(place) => place,
-            None => self.enter(root, part, inside, cell.width, memo)?,
+            None => self.enter(root, part, inside, width, memo)?,
         };
         let here = memo.place(place);
         let at = here.map.apply(start.at);
         if here.kind.is_none() {
             return Ok((place, Some(at)));
         }
-        self.descend(place, at, position_only, cell.width, memo)
+        self.descend(place, at, position_only, width, memo)
     }
 
     /// Remembers the first cell of a corner.
