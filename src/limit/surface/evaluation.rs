@@ -211,7 +211,7 @@ impl Patches<'_> {
             };
             let (turn, map) = kind.child(at);
             let there = map.apply(at);
-            let stays = there == at;
+            let stays = (0..2).all(|k| there[k].to_bits() == at[k].to_bits());
             if let Some(known) = here.child(turn)
                 && !stays
             {

@@ -10,7 +10,8 @@ use crate::base::{Error, ErrorKind, NONE, Result, memory};
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
 
-/// Blocks that are remembered, 8 MB; then all is forgotten.
+/// Blocks that are remembered, 8 MB, and about as much for what leads to them; then all is
+/// forgotten.
 const MOST: usize = 1 << 18;
 
 /// A cell below an irregular one, its points less an origin.
