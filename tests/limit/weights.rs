@@ -1,8 +1,8 @@
 //! Weights of samples, and what evaluation promises of them.
 
 use super::{Shape, WIDTH, assert_near, at, bases, closed_meshes, quad_schemes};
-use carvel::limit::{Derivatives, Sample};
-use carvel::{Context, Scheme};
+use carvel::limit::{Derivatives, Sample, Surface};
+use carvel::{Context, ErrorKind, Scheme};
 
 #[test]
 fn weights_are_what_is_evaluated() {
@@ -89,4 +89,92 @@ fn what_is_remembered_changes_no_bit() {
             }
         }
     }
+}
+
+/// Records of three numbers, evaluated all together and each alone.
+fn check_threes(shape: &Shape, surface: &Surface, samples: &[Sample], what: &str) {
+    let context = Context::serial();
+    let threes: Vec<f64> =
+        shape.values.chunks(WIDTH).flat_map(|value| &value[..3]).copied().collect();
+    for derivatives in [Derivatives::None, Derivatives::First, Derivatives::Second] {
+        let records = derivatives.records();
+        let evaluate = |samples: &[Sample]| {
+            let mut out = vec![f64::NAN; 3 * records * samples.len()];
+            surface.evaluate(&context, samples, &threes, 3, derivatives, &mut out).unwrap();
+            out
+        };
+        let together = evaluate(samples);
+        for (sample, found) in samples.iter().zip(together.chunks(3 * records)).rev() {
+            let wide = shape.evaluate(surface, *sample, derivatives);
+            let expected = wide.chunks(WIDTH).flat_map(|record| &record[..3]);
+            let alone = evaluate(&[*sample]);
+            let same = expected.zip(&alone).zip(found);
+            for ((expected, alone), found) in same {
+                assert_eq!(expected.to_bits(), found.to_bits(), "{what}, {sample:?}");
+                assert_eq!(alone.to_bits(), found.to_bits(), "{what}, {sample:?} alone");
+            }
+        }
+    }
+}
+
+/// Records of three numbers have a way of their own in regular patches, and samples between two
+/// parts of a cell may not decide in which of them those after it are.
+#[test]
+fn three_numbers_are_the_first_of_wider_records() {
+    let shapes = [
+        Shape::new(&bases::cube()),
+        Shape::new(&bases::prism(5)),
+        Shape::new(&bases::torus(5, 4)),
+        Shape::creased(&bases::cube()),
+        Shape::new(&bases::grid(3, 3)),
+    ];
+    for (number, shape) in shapes.iter().enumerate() {
+        let surface = shape.surface(&Scheme::catmull_clark());
+        // Places on the lines between parts, too.
+        let on_lines = (0..600).map(|i| (i % shape.mesh.faces(), [1 + i % 15, 1 + (i / 7) % 15]));
+        let mut samples: Vec<Sample> =
+            on_lines.map(|(face, at16)| at(face, 0, at16.map(|x| x as f64 / 16.0))).collect();
+        samples.extend(many(shape.mesh.faces()));
+        check_threes(shape, &surface, &samples, &format!("shape {number}"));
+    }
+}
+
+#[test]
+fn so_they_are_on_triangles() {
+    let shapes = [bases::octahedron(), bases::tetrahedron(), bases::triangle_grid(3, 3)];
+    for (number, of) in shapes.iter().enumerate() {
+        let shape = Shape::new(of);
+        let surface = shape.surface(&Scheme::loop_triangles());
+        let place = |i: usize| [1 + i % 15, 1 + (i / 7) % 15];
+        let inside = |i: &usize| place(*i).iter().sum::<usize>() <= 16;
+        let samples: Vec<Sample> = (0..600)
+            .filter(inside)
+            .map(|i| at(i % shape.mesh.faces(), 0, place(i).map(|x| x as f64 / 16.0)))
+            .collect();
+        check_threes(&shape, &surface, &samples, &format!("triangles {number}"));
+    }
+}
+
+/// Samples go in groups, which begin before the first of them ends.
+#[test]
+fn of_two_that_fail_in_a_group_the_first_is_named() {
+    let shape = Shape::new(&bases::cube());
+    let surface = shape.surface(&Scheme::catmull_clark());
+    let values: Vec<f64> = (0..24).map(f64::from).collect();
+    let mut samples = vec![at(0, 0, [0.3, 0.4]); 40];
+    samples[39] = at(6, 0, [0.5, 0.5]);
+    samples[37] = at(2, 0, [0.0, 0.0]);
+    let named = |samples: &[Sample]| {
+        let mut out = vec![0.0; 9 * samples.len()];
+        let (context, first) = (Context::serial(), Derivatives::First);
+        let done = surface.evaluate(&context, samples, &values, 3, first, &mut out);
+        let error = done.unwrap_err();
+        (error.kind(), error.to_string())
+    };
+    assert_eq!(named(&samples).0, ErrorKind::Unsupported);
+    assert!(named(&samples).1.contains("face 2"), "{}", named(&samples).1);
+    samples.swap(37, 38);
+    samples.swap(39, 36);
+    assert_eq!(named(&samples).0, ErrorKind::ParameterOutOfRange);
+    assert!(named(&samples).1.contains("face 6"), "{}", named(&samples).1);
 }

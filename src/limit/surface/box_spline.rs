@@ -120,6 +120,73 @@ impl<const R: usize> InnerLoop for Triangle<'_, R> {
     }
 }
 
+/// The same for points of one block.
+#[inline(always)]
+pub(super) fn triangle<const R: usize>(at: [f64; 2], points: &[Block; 12]) -> [Block; R] {
+    let weights = taps::<R>(at[0], at[1]);
+    let mut sums = [ZERO; R];
+    for i in 0..12 {
+        for record in 0..R {
+            sums[record] = plus(sums[record], weights[record][i], &points[i]);
+        }
+    }
+    sums
+}
+
+/// A polynomial in the coordinates a, b, c of a corner and the two after it, and its derivatives
+/// by them as if they were independent.
+type Polynomial = [f64; 4];
+
+/// Twelve times the weights of a corner, the vertex across the edge opposite to it, and the two
+/// beside it on the sides of b and c. What is not asked for the compiler leaves out.
+#[inline(always)]
+fn polynomials(a: f64, b: f64, c: f64) -> [Polynomial; 4] {
+    let (aa, q, p) = (a * a, b * c, b + c);
+    let (aaa, pp) = (aa * a, p * p);
+    let even = 1.0 + 4.0 * a + aa;
+    let by_both = 2.0 * even + 4.0 * q;
+    let corner = [
+        even + 5.0 * aa - aaa * (a + 4.0) + 2.0 * q * (even + q),
+        4.0 + 12.0 * (a - aa) - 4.0 * aaa + 4.0 * q * (2.0 + a),
+        by_both * c,
+        by_both * b,
+    ];
+    let (ppp, by_q) = (pp * p, 2.0 * pp + 4.0 * q);
+    let by_p = 3.0 * pp * (1.0 + a) + 4.0 * q * p;
+    let across = [ppp * (1.0 + a) + 2.0 * q * (pp + q), ppp, by_p + by_q * c, by_p + by_q * b];
+    [
+        corner,
+        across,
+        [aaa * (a + 2.0 * b), aa * (4.0 * a + 6.0 * b), 2.0 * aaa, 0.0],
+        [aaa * (a + 2.0 * c), aa * (4.0 * a + 6.0 * c), 0.0, 2.0 * aaa],
+    ]
+}
+
+/// Weights of the twelve points for the position and first derivatives, in their order.
+#[inline(always)]
+fn first_taps<const R: usize>(u: f64, v: f64) -> [[f64; 12]; R] {
+    let coordinates = [1.0 - u - v, u, v];
+    let mut taps = [[0.0; 12]; R];
+    for k in 0..3 {
+        let [a, b, c] = [coordinates[k], coordinates[(k + 1) % 3], coordinates[(k + 2) % 3]];
+        let of = polynomials(a, b, c);
+        // The vertex across the edge after the corner after this one.
+        let places = [k, 3 + (k + 1) % 3, 6 + k, 9 + k];
+        for i in 0..4 {
+            taps[0][places[i]] = of[i][0] * (1.0 / 12.0);
+            if R >= 3 {
+                // Those by the three coordinates in their own order.
+                let one = of[i][1 + (3 - k) % 3];
+                let two = of[i][1 + (4 - k) % 3];
+                let three = of[i][1 + (5 - k) % 3];
+                taps[1][places[i]] = (two - one) * (1.0 / 12.0);
+                taps[2][places[i]] = (three - one) * (1.0 / 12.0);
+            }
+        }
+    }
+    taps
+}
+
 /// Weights of the twelve points, in the order of [`points`], for the position and derivatives by
 /// u and v, at barycentric coordinates (1 − u − v, u, v).
 ///
@@ -129,6 +196,10 @@ impl<const R: usize> InnerLoop for Triangle<'_, R> {
 /// side of b, a³(a + 2b).
 #[inline(always)]
 fn taps<const R: usize>(u: f64, v: f64) -> [[f64; 12]; R] {
+    let mut taps = first_taps::<R>(u, v);
+    if R <= 3 {
+        return taps;
+    }
     let one = Jet::<R>::constant(1.0);
     let a = Jet::coordinates(u, v);
     let (b, c) = (a.next(), a.next().next());
@@ -145,8 +216,7 @@ fn taps<const R: usize>(u: f64, v: f64) -> [[f64; 12]; R] {
     // Across the edge after each corner, which the corner before it is opposite to.
     let across = across.next().next();
     let beside = [cube.times(a.plus(b.scaled(2.0))), cube.times(a.plus(c.scaled(2.0)))];
-    let mut taps = [[0.0; 12]; R];
-    for record in 0..R {
+    for record in 3..R {
         for k in 0..3 {
             taps[record][k] = corner.0[record][k] * (1.0 / 12.0);
             taps[record][3 + k] = across.0[record][k] * (1.0 / 12.0);

@@ -65,6 +65,11 @@ impl Map {
         [a * s + b * t + self.shift[0], c * s + d * t + self.shift[1]]
     }
 
+    /// This map after another.
+    pub(super) fn following(&self, first: &Map) -> Map {
+        map(self.after(first.linear), self.apply(first.shift))
+    }
+
     /// The linear part of this map after another.
     pub(super) fn after(&self, first: [[f64; 2]; 2]) -> [[f64; 2]; 2] {
         let entry =
@@ -75,16 +80,42 @@ impl Map {
 
 /// The corner of a quad in whose quarter a point lies, counted from the first, and the map there.
 pub(super) fn quarter([s, t]: [f64; 2]) -> (usize, Map) {
-    let at = match (s >= 0.5, t >= 0.5) {
-        (false, false) => 0,
-        (true, false) => 1,
-        (true, true) => 2,
-        (false, true) => 3,
-    };
+    // 0, 1, 2, 3 for (no, no), (yes, no), (yes, yes), (no, yes), without a branch that no
+    // processor could foresee.
+    let [right, upper] = [s, t].map(|x| usize::from(x >= 0.5));
+    let at = (right ^ upper) + 2 * upper;
     (at, QUARTERS[at])
 }
 
+/// Halvings of a cell that [`Kind::part`] tells apart.
+pub(super) const HALVINGS: u32 = 3;
+const PARTS_ALONG: u32 = 1 << HALVINGS;
+/// Parts of a cell: squares, or the triangles that they are cut into.
+pub(super) const PARTS: usize = 2 * (PARTS_ALONG * PARTS_ALONG) as usize;
+
 impl Kind {
+    /// The number of the part of a cell that a point lies in, and a point inside that part.
+    #[inline(always)]
+    pub(super) fn part(self, at: [f64; 2]) -> (usize, [f64; 2]) {
+        let along = f64::from(PARTS_ALONG);
+        let [mut i, j] = at.map(|x| ((along * x) as u32).min(PARTS_ALONG - 1));
+        let is_triangle = self == Self::Triangle;
+        if is_triangle {
+            // On the side s + t = 1.
+            i = i.min(PARTS_ALONG - 1 - j);
+        }
+        let first = [i, j].map(f64::from);
+        let rest = along * at[0] - first[0] + (along * at[1] - first[1]);
+        let upper = is_triangle && rest > 1.0 && i + j + 1 < PARTS_ALONG;
+        let inside = match (is_triangle, upper) {
+            (false, _) => 0.5,
+            (true, false) => 0.25,
+            (true, true) => 0.75,
+        };
+        let part = 2 * (j * PARTS_ALONG + i) + u32::from(upper);
+        (part as usize, first.map(|x| (x + inside) / along))
+    }
+
     /// The cell of a scheme at a corner.
     pub(super) fn at(scheme: &Scheme, mesh: &Mesh, corner: u32) -> Self {
         use crate::scheme::SplitKind::{Corner, Quad, Triangle};
@@ -103,12 +134,9 @@ impl Kind {
             Self::Quad => quarter(at),
             Self::Sector => (0, IDENTITY),
             Self::Quarter => {
-                let place = match (s >= 0.5, t >= 0.5) {
-                    (true, true) => 0,
-                    (true, false) => 1,
-                    (false, false) => 2,
-                    (false, true) => 3,
-                };
+                // 0, 1, 2, 3 for (yes, yes), (yes, no), (no, no), (no, yes).
+                let [left, lower] = [s, t].map(|x| usize::from(x < 0.5));
+                let place = (left ^ lower) + 2 * left;
                 (place, AROUND[place])
             }
             Self::Triangle => {

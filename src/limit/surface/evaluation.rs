@@ -2,7 +2,7 @@
 //! points become one.
 
 use super::box_spline::Triangle;
-use super::cell::IDENTITY;
+use super::cell::{HALVINGS, IDENTITY, Kind, Map};
 use super::lanes::{Block, LANES, Tensor, ZERO, blocks, plus};
 use super::memo::Memo;
 use super::nodes::Node;
@@ -29,15 +29,24 @@ pub(super) struct Patches<'a> {
 /// Where to begin.
 #[derive(Clone, Copy)]
 pub(super) struct Start {
+    /// That of the first cell.
+    pub(super) corner: u32,
     pub(super) node: u32,
+    /// Where the cell's control vertices begin.
+    pub(super) points: u32,
     pub(super) at: [f64; 2],
     /// Derivatives of cell coordinates by those asked for.
     pub(super) jacobian: [[f64; 2]; 2],
 }
 
+impl Start {
+    pub(super) const NOWHERE: Self =
+        Self { corner: 0, node: 0, points: 0, at: [0.0; 2], jacobian: IDENTITY.linear };
+}
+
 /// The first cell of a corner: its control vertices, and values of all control vertices.
+#[derive(Clone, Copy)]
 pub(super) struct Cell<'a, T> {
-    pub(super) corner: u32,
     pub(super) vertices: &'a [u32],
     pub(super) values: &'a [T],
     pub(super) width: usize,
@@ -49,7 +58,8 @@ pub(super) struct Scratch {
     points: Vec<Block>,
     sums: Vec<Block>,
     taps: Vec<f64>,
-    memo: Memo,
+    pub(super) results: Vec<f64>,
+    pub(super) memo: Memo,
 }
 
 fn unsupported(message: &str) -> Error {
@@ -62,7 +72,7 @@ impl Patches<'_> {
     pub(super) fn evaluate<T: Scalar>(
         &self,
         cell: &Cell<'_, T>,
-        start: Start,
+        start: &Start,
         scratch: &mut Scratch,
         out: &mut [f64],
     ) -> Result<()> {
@@ -79,21 +89,15 @@ impl Patches<'_> {
         let mut origin: &[Block] = &[];
         match &self.nodes[start.node as usize] {
             Node::Split { .. } => {
-                let memo = &mut scratch.memo;
-                let root = if let Some(root) = memo.root(cell.corner) {
-                    root
-                } else {
-                    cell.gather(&mut scratch.points)?;
-                    memo.add_root(cell.corner, start.node, jacobian, &scratch.points, width)?
-                };
-                let (place, at) = self.descend(root, start.at, out.len() == width, width, memo)?;
-                let memo = &scratch.memo;
+                let (place, at) =
+                    self.arrive(|| *cell, start, width, out.len() == width, scratch)?;
+                let place = scratch.memo.place(place);
                 let points;
-                (points, origin) = memo.points(place, blocks);
-                jacobian = memo.place(place).jacobian;
+                (points, origin) = scratch.memo.points(place, blocks);
+                jacobian = place.jacobian;
                 match at {
                     Some(at) => {
-                        let node = &self.nodes[memo.place(place).node as usize];
+                        let node = &self.nodes[place.node as usize];
                         let (taps, sums) = (&mut scratch.taps, &mut scratch.sums[..]);
                         self.patch(node, at, points, blocks, taps, sums)?;
                     }
@@ -109,7 +113,89 @@ impl Patches<'_> {
         finish(jacobian, width, origin, &mut scratch.sums, out)
     }
 
-    /// Down to a regular cell, and where in it; or to one whose points are one, without.
+    /// From the first cell of a sample down to a regular one, and where in it; or to one whose
+    /// points are one, without.
+    pub(super) fn arrive<'a, T: Scalar>(
+        &self,
+        cell: impl FnOnce() -> Cell<'a, T>,
+        start: &Start,
+        width: usize,
+        position_only: bool,
+        scratch: &mut Scratch,
+    ) -> Result<(u32, Option<[f64; 2]>)> {
+        let root = match scratch.memo.find(start.corner) {
+            Some(root) => root,
+            None => self.root(&cell(), start, scratch)?,
+        };
+        let memo = &mut scratch.memo;
+        let (part, inside) = memo.root(root).kind.part(start.at);
+        let place = match memo.part(root, part) {
+            Some(place) => place,
+            None => self.enter(root, part, inside, width, memo)?,
+        };
+        let here = memo.place(place);
+        let at = here.map.apply(start.at);
+        if here.kind.is_none() {
+            return Ok((place, Some(at)));
+        }
+        self.descend(place, at, position_only, width, memo)
+    }
+
+    /// Remembers the first cell of a corner.
+    #[cold]
+    fn root<T: Scalar>(
+        &self,
+        cell: &Cell<'_, T>,
+        start: &Start,
+        scratch: &mut Scratch,
+    ) -> Result<u32> {
+        cell.gather(&mut scratch.points)?;
+        let Some(kind) = self.kind(start.node) else {
+            return Err(Error::new(ErrorKind::BrokenInvariant, "a regular cell has no children"));
+        };
+        let (memo, points) = (&mut scratch.memo, &scratch.points);
+        memo.add_root(start.corner, start.node, kind, start.jacobian, points, cell.width)
+    }
+
+    /// The place that holds all of a part of a first cell. It is found from a point inside, not
+    /// from whichever sample came first, which may lie between two parts.
+    #[cold]
+    fn enter(
+        &self,
+        root: u32,
+        part: usize,
+        inside: [f64; 2],
+        width: usize,
+        memo: &mut Memo,
+    ) -> Result<u32> {
+        let (mut place, mut at, mut halvings) = (memo.root(root).place, inside, 0);
+        let age = memo.age();
+        while let Some(kind) = memo.place(place).kind {
+            if kind != Kind::Sector {
+                if halvings == HALVINGS {
+                    break;
+                }
+                halvings += 1;
+            }
+            let (turn, map) = kind.child(at);
+            at = map.apply(at);
+            (place, _) = self.step(place, turn, &map, width, memo)?;
+        }
+        if memo.age() == age {
+            memo.set_part(root, part, place);
+        }
+        Ok(place)
+    }
+
+    /// What a cell with children is.
+    fn kind(&self, node: u32) -> Option<Kind> {
+        match self.nodes[node as usize] {
+            Node::Split { kind, .. } => Some(kind),
+            _ => None,
+        }
+    }
+
+    /// The same from any cell.
     fn descend(
         &self,
         mut place: u32,
@@ -120,30 +206,55 @@ impl Patches<'_> {
     ) -> Result<(u32, Option<[f64; 2]>)> {
         for _ in 0..MOST_STEPS {
             let here = memo.place(place);
-            let Node::Split { kind, children } = &self.nodes[here.node as usize] else {
+            let Some(kind) = here.kind else {
                 return Ok((place, Some(at)));
             };
             let (turn, map) = kind.child(at);
-            let child = children[turn].as_ref();
-            let child = child.ok_or_else(|| unsupported("there is no surface"))?;
             let there = map.apply(at);
-            let stays =
-                child.node == here.node && (0..2).all(|k| there[k].to_bits() == at[k].to_bits());
-            if stays && !position_only {
-                return Err(unsupported("derivatives do not exist at a feature"));
+            let stays = (0..2).all(|k| there[k].to_bits() == at[k].to_bits());
+            if let Some(known) = here.child(turn)
+                && !stays
+            {
+                (place, at) = (known, there);
+                continue;
             }
-            place = if let Some(known) = here.child(turn) {
-                known
-            } else {
-                let jacobian = map.after(here.jacobian);
-                memo.add_child(place, turn, child, jacobian, width)?
-            };
-            if stays && memo.place(place).is_within(TOGETHER) {
-                return Ok((place, None));
+            let is_here;
+            (place, is_here) = self.step(place, turn, &map, width, memo)?;
+            if stays && is_here {
+                if !position_only {
+                    return Err(unsupported("derivatives do not exist at a feature"));
+                }
+                if memo.place(place).is_within(TOGETHER) {
+                    return Ok((place, None));
+                }
             }
             at = there;
         }
         Err(unsupported("points do not converge"))
+    }
+
+    /// A child's place, made if it is new; and whether it has the surface of its parent.
+    #[cold]
+    fn step(
+        &self,
+        place: u32,
+        turn: usize,
+        map: &Map,
+        width: usize,
+        memo: &mut Memo,
+    ) -> Result<(u32, bool)> {
+        let here = memo.place(place);
+        let child = match &self.nodes[here.node as usize] {
+            Node::Split { children, .. } => children[turn].as_ref(),
+            _ => None,
+        };
+        let child = child.ok_or_else(|| unsupported("there is no surface"))?;
+        let is_same = child.node == here.node;
+        if let Some(known) = here.child(turn) {
+            return Ok((known, is_same));
+        }
+        let kind = self.kind(child.node);
+        Ok((memo.add_child(place, turn, child, kind, map, width)?, is_same))
     }
 
     /// A regular cell, or the reason why there is none.

@@ -2,22 +2,29 @@
 //! the way down in common. A cell's points are the same however one came to it, so that what is
 //! remembered changes no bit.
 
+use super::cell::{IDENTITY, Kind, Map, PARTS};
 use super::lanes::{Block, ZERO, blocks, plus};
 use super::nodes::Child;
+use crate::base::simd::fetch_ahead;
 use crate::base::{Error, ErrorKind, NONE, Result, memory};
 use std::collections::HashMap;
 use std::hash::{BuildHasherDefault, Hasher};
 
-/// Blocks that are remembered, 8 MB; then all is forgotten.
+/// Blocks that are remembered, 8 MB, and about as much for what leads to them; then all is
+/// forgotten.
 const MOST: usize = 1 << 18;
 
 /// A cell below an irregular one, its points less an origin.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Place {
     pub(super) node: u32,
+    /// What it is, if it has children.
+    pub(super) kind: Option<Kind>,
     /// Where its origin is, which its points follow.
     start: u32,
     points: u32,
+    /// To its coordinates from those of the first cell.
+    pub(super) map: Map,
     /// Derivatives of its coordinates by those asked for.
     pub(super) jacobian: [[f64; 2]; 2],
     /// The largest coordinate of its points, and of those of the first cell below the root.
@@ -38,19 +45,49 @@ impl Place {
     }
 }
 
+/// The first cell of a corner.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Root {
+    pub(super) place: u32,
+    pub(super) kind: Kind,
+    /// For each part of the cell the last place that holds it all, or [`NONE`].
+    parts: [u32; PARTS],
+}
+
 /// Places of a thread.
 #[derive(Debug, Default)]
 pub(super) struct Memo {
     places: Vec<Place>,
     records: Vec<Block>,
-    /// By the corners of their cells.
-    roots: HashMap<u32, u32, BuildHasherDefault<Multiplied>>,
+    roots: Vec<Root>,
+    /// Numbers of roots by the corners of their cells.
+    by_corner: HashMap<u32, u32, BuildHasherDefault<Multiplied>>,
+    /// How often all was forgotten.
+    age: u64,
 }
 
 impl Memo {
-    /// The place of the cell of a corner.
-    pub(super) fn root(&self, corner: u32) -> Option<u32> {
-        self.roots.get(&corner).copied()
+    /// The number of the first cell of a corner.
+    pub(super) fn find(&self, corner: u32) -> Option<u32> {
+        self.by_corner.get(&corner).copied()
+    }
+
+    pub(super) fn root(&self, root: u32) -> &Root {
+        &self.roots[root as usize]
+    }
+
+    /// The place of a part of a first cell, once it has been made.
+    pub(super) fn part(&self, root: u32, part: usize) -> Option<u32> {
+        Some(self.roots[root as usize].parts[part]).filter(|&place| place != NONE)
+    }
+
+    pub(super) fn set_part(&mut self, root: u32, part: usize, place: u32) {
+        self.roots[root as usize].parts[part] = place;
+    }
+
+    /// Changes when all is forgotten, and every number with it.
+    pub(super) fn age(&self) -> u64 {
+        self.age
     }
 
     pub(super) fn place(&self, place: u32) -> &Place {
@@ -58,11 +95,20 @@ impl Memo {
     }
 
     /// The points of a place, and the origin that they are to be added to.
-    pub(super) fn points(&self, place: u32, blocks: usize) -> (&[Block], &[Block]) {
-        let place = self.place(place);
+    pub(super) fn points(&self, place: &Place, blocks: usize) -> (&[Block], &[Block]) {
         let (start, count) = (place.start as usize, place.points as usize);
         let (origin, points) = self.records[start..][..(1 + count) * blocks].split_at(blocks);
         (points, origin)
+    }
+
+    /// Asks for a place's points ahead.
+    #[inline(always)]
+    pub(super) fn ask_ahead(&self, place: &Place, blocks: usize) {
+        let all = (1 + place.points as usize) * blocks;
+        // Two of these blocks are as much as comes at once.
+        for record in self.records[place.start as usize..][..all].iter().step_by(2) {
+            fetch_ahead(std::slice::from_ref(record), 0);
+        }
     }
 
     /// Remembers the cell of a corner with its points.
@@ -70,6 +116,7 @@ impl Memo {
         &mut self,
         corner: u32,
         node: u32,
+        kind: Kind,
         jacobian: [[f64; 2]; 2],
         points: &[Block],
         width: usize,
@@ -77,31 +124,44 @@ impl Memo {
         let blocks = blocks(width);
         if self.records.len() + points.len() > MOST {
             self.records.clear();
-            self.places.clear();
-            self.roots.clear();
+            self.forget();
         }
         let start = self.records.len() as u32;
         memory::grow(&mut self.records, blocks + points.len())?;
         self.records.extend(std::iter::repeat_n(ZERO, blocks));
         self.records.extend_from_slice(points);
         let refused = |_| Error::new(ErrorKind::OutOfResources, "a table could not grow");
-        self.roots.try_reserve(1).map_err(refused)?;
+        self.by_corner.try_reserve(1).map_err(refused)?;
         let points = (points.len() / blocks) as u32;
         let place = self.places.len() as u32;
         let (spread, children) = (f64::NAN, [NONE; 4]);
-        let new = Place { node, start, points, jacobian, spread, first_spread: spread, children };
+        let new = Place {
+            node,
+            kind: Some(kind),
+            start,
+            points,
+            map: IDENTITY,
+            jacobian,
+            spread,
+            first_spread: spread,
+            children,
+        };
         memory::extend(&mut self.places, [new])?;
-        self.roots.insert(corner, place);
-        Ok(place)
+        let root = self.roots.len() as u32;
+        memory::extend(&mut self.roots, [Root { place, kind, parts: [NONE; PARTS] }])?;
+        self.by_corner.insert(corner, root);
+        Ok(root)
     }
 
-    /// Goes from a place to a child cell, and remembers that.
+    /// Goes from a place to a child cell, and remembers that; `kind` is the
+    /// child's, `map` leads to it.
     pub(super) fn add_child(
         &mut self,
         parent: u32,
         at: usize,
         child: &Child,
-        jacobian: [[f64; 2]; 2],
+        kind: Option<Kind>,
+        map: &Map,
         width: usize,
     ) -> Result<u32> {
         let blocks = blocks(width);
@@ -132,9 +192,11 @@ impl Memo {
             &mut self.places,
             [Place {
                 node: child.node,
+                kind,
                 start: start as u32,
                 points: child.count() as u32,
-                jacobian,
+                map: map.following(&from.map),
+                jacobian: map.after(from.jacobian),
                 spread,
                 first_spread,
                 children: [NONE; 4],
@@ -151,10 +213,16 @@ impl Memo {
         self.records.copy_within(start..start + count, 0);
         self.records.truncate(count);
         (kept.start, kept.children) = (0, [NONE; 4]);
-        self.places.clear();
+        self.forget();
         self.places.push(kept);
-        self.roots.clear();
         0
+    }
+
+    fn forget(&mut self) {
+        self.places.clear();
+        self.roots.clear();
+        self.by_corner.clear();
+        self.age += 1;
     }
 }
 

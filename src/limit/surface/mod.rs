@@ -12,9 +12,12 @@
 //! | `memo` | how far others have come on the way down |
 //! | `lanes` | sums of points |
 //! | `evaluation` | the way down |
+//! | `regular` | the patches that most samples lie in, by the shortest way |
+//! | `batch` | many samples |
 //! | `stencils` | the same for values that come again and again |
 //! | `pieces` | what the surface is over a part of a face |
 
+mod batch;
 #[allow(clippy::needless_range_loop, reason = "several arrays share an index")]
 mod box_spline;
 mod cell;
@@ -28,6 +31,8 @@ mod lanes;
 mod memo;
 mod nodes;
 mod pieces;
+#[allow(clippy::needless_range_loop, reason = "several arrays share an index")]
+mod regular;
 mod stencils;
 #[allow(clippy::needless_range_loop, reason = "several arrays share an index")]
 mod univariate;
@@ -294,20 +299,18 @@ impl Surface {
         let pool = || pool.lock().unwrap_or_else(PoisonError::into_inner);
         context.fill(out, record, |first, part| {
             let mut scratch = pool().pop().unwrap_or_default();
-            let mut sums = match memory::zeroed(record) {
-                Ok(sums) => sums,
-                Err(error) => return fail(first, error),
-            };
-            for (i, out) in (first..).zip(part.chunks_exact_mut(record)) {
-                match self.one(&samples[i], values, width, &mut scratch, &mut sums) {
-                    Ok(()) => {
-                        out.iter_mut().zip(&sums).for_each(|(x, &y)| *x = T::from_f64(y));
-                        if !out.iter().all(|x| x.to_f64().is_finite()) {
-                            return fail(i, named(evaluation::not_finite(), &samples[i]));
-                        }
-                    }
-                    Err(error) => return fail(i, error),
+            let samples = &samples[first..][..part.len() / record];
+            let done = match derivatives {
+                Derivatives::None => self.batch::<T, 1>(samples, values, width, &mut scratch, part),
+                Derivatives::First => {
+                    self.batch::<T, 3>(samples, values, width, &mut scratch, part)
                 }
+                Derivatives::Second => {
+                    self.batch::<T, 6>(samples, values, width, &mut scratch, part)
+                }
+            };
+            if let Err((i, error)) = done {
+                return fail(first + i, error);
             }
             let mut pool = pool();
             match memory::extend(&mut pool, [scratch]) {
@@ -346,17 +349,17 @@ impl Surface {
     /// As [`Surface::evaluate`].
     pub fn weights(&self, sample: &Sample, derivatives: Derivatives) -> Result<Vec<SurfaceWeight>> {
         let in_face = |error| named(error, sample);
-        let (root, start) = self.start(sample).map_err(in_face)?;
-        let points = self.cell_points(root);
+        let start = self.start(sample).map_err(in_face)?;
+        let points = self.cell_points(start.corner);
         let n = points.len();
         let mut identity: Vec<f64> = memory::zeroed(n * n)?;
         (0..n).for_each(|i| identity[i * n + i] = 1.0);
         let places: Vec<u32> = memory::collect(0..n as u32)?;
-        let cell = Cell { corner: root, vertices: &places, values: &identity, width: n };
+        let cell = Cell { vertices: &places, values: &identity, width: n };
         let records = derivatives.records();
         let mut rows: Vec<f64> = memory::zeroed(n * records)?;
         let mut scratch = Scratch::default();
-        self.patches().evaluate(&cell, start, &mut scratch, &mut rows).map_err(in_face)?;
+        self.patches().evaluate(&cell, &start, &mut scratch, &mut rows).map_err(in_face)?;
         let mut weights: Vec<SurfaceWeight> =
             memory::collect(points.iter().enumerate().map(|(i, &v)| {
                 let mut of = [0.0; 6];
@@ -376,18 +379,9 @@ impl Surface {
         Ok(weights)
     }
 
-    fn one<T: Scalar>(
-        &self,
-        sample: &Sample,
-        values: &[T],
-        width: usize,
-        scratch: &mut Scratch,
-        sums: &mut [f64],
-    ) -> Result<()> {
-        let in_face = |error| named(error, sample);
-        let (corner, start) = self.start(sample).map_err(in_face)?;
-        let cell = Cell { corner, vertices: self.cell_points(corner), values, width };
-        self.patches().evaluate(&cell, start, scratch, sums).map_err(in_face)
+    /// The first cell of a sample.
+    fn cell<'a, T>(&'a self, start: &Start, values: &'a [T], width: usize) -> Cell<'a, T> {
+        Cell { vertices: self.cell_points(start.corner), values, width }
     }
 
     fn patches(&self) -> Patches<'_> {
@@ -401,8 +395,16 @@ impl Surface {
         &self.points[start..later.map_or(self.points.len(), |root| root.start as usize)]
     }
 
-    /// The corner whose cell a sample lies in, and where evaluation starts.
-    fn start(&self, sample: &Sample) -> Result<(u32, Start)> {
+    /// Where the evaluation of a sample starts.
+    fn start(&self, sample: &Sample) -> Result<Start> {
+        let mut start = self.place(sample)?;
+        let root = self.roots[start.corner as usize];
+        (start.node, start.points) = (root.node, root.start);
+        Ok(start)
+    }
+
+    /// The same, but for the node and its points.
+    fn place(&self, sample: &Sample) -> Result<Start> {
         let out_of_range =
             |message: String| Err(Error::new(ErrorKind::ParameterOutOfRange, message));
         let &Sample { face, sector, u, v } = sample;
@@ -430,8 +432,7 @@ impl Surface {
             _ => (corner, [u, v], cell::IDENTITY),
         };
         let Map { linear, .. } = map;
-        let node = self.roots[corner as usize].node;
-        Ok((corner, Start { node, at, jacobian: linear }))
+        Ok(Start { corner, at, jacobian: linear, ..Start::NOWHERE })
     }
 }
 

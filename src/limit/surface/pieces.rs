@@ -45,7 +45,7 @@ impl Surface {
     /// # Errors
     /// As [`Surface::evaluate`] for the point.
     pub(in crate::limit) fn piece(&self, inside: &Sample, side: f64) -> Result<Piece> {
-        let (_, start) = self.start(inside)?;
+        let start = self.start(inside)?;
         let scale =
             if self.has_quarters() && self.sectors(inside.face as usize) == 1 { 2.0 } else { 1.0 };
         let (mut node, mut at, mut side) = (start.node, start.at, side * scale);

@@ -81,7 +81,10 @@ impl Univariate {
         match self {
             // Loops of a known length are unrolled.
             Self::Spline(2) => spline(2, x, &mut taps[..3 * orders]),
-            Self::Spline(3) => spline(3, x, &mut taps[..4 * orders]),
+            Self::Spline(3) => {
+                let cubic = cubic::<ORDERS>(x);
+                taps.copy_from_slice(&cubic.as_flattened()[..4 * orders]);
+            }
             Self::Spline(4) => spline(4, x, &mut taps[..5 * orders]),
             Self::Spline(degree) => spline(*degree, x, taps),
             Self::Mask(of) => {
@@ -90,6 +93,9 @@ impl Univariate {
                     digits.taps(x, differences);
                 }
             }
+        }
+        if matches!(self, Self::Spline(3)) {
+            return;
         }
         for (order, taps) in taps.chunks_exact_mut(n).enumerate() {
             for len in n - order.min(n)..n {
@@ -108,6 +114,29 @@ fn differences(taps: &mut [f64]) {
         let before = if i > 0 { taps[i - 1] } else { 0.0 };
         taps[i] = before - taps[i];
     }
+}
+
+/// The uniform cubic B-splines on [0, 1] and their derivatives, of which there are fewer than
+/// `ORDERS`. Each is a short polynomial in the distance from the end that it vanishes at or
+/// is next to, so that what is zero there is so exactly, and both ends mirror each other.
+#[inline(always)]
+pub(super) fn cubic<const ORDERS: usize>(x: f64) -> [[f64; 4]; ORDERS] {
+    let y = 1.0 - x;
+    let [xx, yy] = [x * x, y * y];
+    let mut taps = [[0.0; 4]; ORDERS];
+    for order in 0..ORDERS {
+        taps[order] = match order {
+            0 => [
+                yy * y * (1.0 / 6.0),
+                xx * (0.5 * x - 1.0) + 2.0 / 3.0,
+                yy * (0.5 * y - 1.0) + 2.0 / 3.0,
+                xx * x * (1.0 / 6.0),
+            ],
+            1 => [-0.5 * yy, x * (1.5 * x - 2.0), -(y * (1.5 * y - 2.0)), 0.5 * xx],
+            _ => [y, 3.0 * x - 2.0, 3.0 * y - 2.0, x],
+        };
+    }
+    taps
 }
 
 /// The uniform B-splines of a degree on [0, 1], and those of lower degrees, each in its own
