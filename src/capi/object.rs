@@ -12,7 +12,6 @@
 //! | `carvel_stencils` | box | by reference; what it makes when first asked is kept |
 //! | `carvel_surface` | box | by reference |
 //! | `carvel_tessellation` | box | by reference |
-//! | `carvel_mask` | box | by reference |
 //! | `carvel_mask`, `carvel_grid_mask` | box | by reference |
 
 use super::status::{
