@@ -4,6 +4,7 @@ mod derivatives;
 mod points;
 mod refusals;
 mod regular;
+mod search;
 mod stencils;
 mod tessellation;
 mod weights;

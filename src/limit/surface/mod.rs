@@ -14,6 +14,7 @@
 //! | `evaluation` | the way down |
 //! | `stencils` | the same for values that come again and again |
 //! | `pieces` | what the surface is over a part of a face |
+//! | `hull` | points in whose hull it is there |
 
 #[allow(clippy::needless_range_loop, reason = "several arrays share an index")]
 mod box_spline;
@@ -22,6 +23,7 @@ mod digits;
 #[allow(clippy::needless_range_loop, reason = "several arrays share an index")]
 mod evaluation;
 mod grid;
+mod hull;
 #[allow(clippy::needless_range_loop, reason = "several arrays share an index")]
 mod lanes;
 #[allow(clippy::needless_range_loop, reason = "several arrays share an index")]
