@@ -5,7 +5,7 @@
 //! J⁻¹J′ is near the unit matrix for all of them, there is one root at most, and Newton's method,
 //! moved back into the cell after every step, comes to it if there is one.
 
-use super::cell::{middle, within};
+use super::cell::{corners, middle, within};
 use super::jet::{Hodograph, Jet};
 use super::part::{Bounds, Form, Part};
 use super::queue::{Place, Queue};
@@ -163,10 +163,9 @@ impl Cast<'_> {
         let Some(Seen { low, high }) = self.seen(part) else {
             return Ok(());
         };
-        let shape = self.inside.field.shape(part);
         let is_point = (high - low).max_element() <= 4.0 * (part.slack + self.line.tolerance);
         if is_point || part.cell.is_smallest() {
-            return self.offer(part, middle(shape), is_point);
+            return self.offer_any(part);
         }
         match &part.form {
             Form::Exact(fit) if self.meets_once(fit, 1.0) => {
@@ -234,22 +233,44 @@ impl Cast<'_> {
                 break;
             }
         }
-        self.offer(part, at, false)
+        let q = self.seen_at(part, at)?;
+        if q.truncate().abs().max_element() <= 2.0 * self.line.tolerance {
+            self.offer(part, at, q.z);
+        }
+        Ok(())
     }
 
-    /// Takes a point that is on the ray, and within its range, if it is the first.
-    fn offer(&mut self, part: &Part, at: [f64; 2], known: bool) -> Result<()> {
+    /// Takes the corner or the middle of a part, which is as good as a point, that is nearest
+    /// to the ray.
+    fn offer_any(&mut self, part: &Part) -> Result<()> {
+        let shape = self.inside.field.shape(part);
+        let mut nearest = (f64::INFINITY, middle(shape), 0.0);
+        for at in corners(shape).iter().copied().chain([middle(shape)]) {
+            let q = self.seen_at(part, at)?;
+            let off = q.truncate().length_squared();
+            if off < nearest.0 {
+                nearest = (off, at, q.z);
+            }
+        }
+        self.offer(part, nearest.1, nearest.2);
+        Ok(())
+    }
+
+    /// A point of a part in coordinates across and along the ray.
+    fn seen_at(&self, part: &Part, at: [f64; 2]) -> Result<DVec3> {
         let q = match &part.form {
             Form::Exact(fit) => Jet::of(fit, at).0[0],
             _ => self.inside.field.point(part, at)?,
         };
-        let q = self.line.place(q);
-        let on = known || q.truncate().abs().max_element() <= 2.0 * self.line.tolerance;
-        let [first, _] = self.line.range;
-        if on && q.z >= first - self.line.tolerance && q.z <= self.limit() + self.line.tolerance {
-            let z = q.z.clamp(first, self.limit());
+        Ok(self.line.place(q))
+    }
+
+    /// Takes a point on the ray if that is within its range, and the first.
+    fn offer(&mut self, part: &Part, at: [f64; 2], z: f64) {
+        let ([first, _], limit, slack) = (self.line.range, self.limit(), self.line.tolerance);
+        if z >= first - slack && z <= limit + slack {
+            let z = z.clamp(first, limit);
             self.best = Some(Meeting { root: part.root, at: part.cell.place(at), z });
         }
-        Ok(())
     }
 }

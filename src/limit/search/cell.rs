@@ -4,8 +4,8 @@
 use crate::limit::surface::Sample;
 use crate::limit::tessellate::{Root, Shape};
 
-/// The shortest side.
-const SMALLEST: f64 = 1.0 / (1_u64 << 40) as f64;
+/// The shortest side: a quarter of it is still a difference of doubles below 1.
+const SMALLEST: f64 = 1.0 / (1_u64 << 50) as f64;
 
 /// A square, or half of one: that of the right angle at the first corner.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -208,7 +208,7 @@ impl Search {
     ///
     /// No other point of the surface is nearer by more than a 10⁻⁹ of the distance, or 10⁻¹² of
     /// the largest coordinate of a control point (and 10⁻¹⁵ of the query's). Where the kind of bounds that
-    /// hold for the scheme are proven ([`Search`]), so is that; parts are halved 40 times
+    /// hold for the scheme are proven ([`Search`]), so is that; parts are halved 50 times
     /// at most. Among points equally near one is chosen, always the same. The result does not
     /// depend on the number of threads.
     ///
