@@ -352,11 +352,12 @@ fn rays_meet_what_triangles_do() {
         let corners = |t: &[u32; 3]| t.map(|v| made.positions[v as usize]);
         let triangles: Vec<_> = made.triangles.iter().map(corners).collect();
         let mut noise = Noise(5);
-        let rays: Vec<Ray> =
-            (0..120).map(|_| {
+        let rays: Vec<Ray> = (0..120)
+            .map(|_| {
                 let origin = noise.point().map(|x| 4.0 * x);
                 Ray::new(origin, minus(noise.point(), origin))
-            }).collect();
+            })
+            .collect();
         let hits = case.hits(&rays);
         let (mut same, mut hit) = (0, 0);
         for (ray, found) in rays.iter().zip(&hits) {

@@ -47,7 +47,7 @@ fn along(direction: [f64; 2], gradient: [f64; 2], second: [f64; 3]) -> Option<[f
     let [x, y] = direction;
     let bend = second[0] * x * x + 2.0 * second[1] * x * y + second[2] * y * y;
     let step = -dot(direction, gradient) / bend;
-    (bend > 0.0 && step.is_finite()).then(|| [step * x, step * y])
+    (bend > 0.0 && step.is_finite()).then_some([step * x, step * y])
 }
 
 /// Newton's step, if it leads downhill.

@@ -13,6 +13,7 @@
 
 mod cast;
 mod cell;
+#[allow(clippy::needless_range_loop, reason = "several arrays share an index")]
 mod jet;
 mod minimise;
 mod nearest;
@@ -45,9 +46,7 @@ const PAUSE: u64 = 256;
 const FARTHEST: f64 = 1e100;
 
 /// The point of a surface that is nearest to another.
-// The layout is that of `carvel_closest`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[repr(C)]
 pub struct Closest {
     /// Where it is.
     pub sample: Sample,
@@ -58,9 +57,7 @@ pub struct Closest {
 }
 
 /// A ray, or a segment: the points origin + t·direction with t in a range.
-// The layout is that of `carvel_ray`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[repr(C)]
 pub struct Ray {
     /// Where t is 0; finite.
     pub origin: [f64; 3],
@@ -79,9 +76,7 @@ impl Ray {
 }
 
 /// The first point of a surface on a ray.
-// The layout is that of `carvel_hit`.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[repr(C)]
 pub struct Hit {
     /// Where it is; [`Surface::evaluate`] has the derivatives there, and so the normal.
     pub sample: Sample,
@@ -184,7 +179,9 @@ impl Search {
         let mut positions = checked(surface, positions)?;
         let largest = positions.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
         let exponent = if largest > 0.0 { -libm::ilogb(largest) - 1 } else { 0 };
-        positions.iter_mut().for_each(|x| *x = libm::scalbn(*x, exponent));
+        for x in &mut positions {
+            *x = libm::scalbn(*x, exponent);
+        }
         let roots = roots(surface)?;
         let complete = surface.complete_nodes()?;
         let has_gaps = |root: &&Root| !surface.is_complete(&complete, root.face, root.sector);
@@ -249,7 +246,7 @@ impl Search {
 
     /// For each ray the first point of the surface on it, or `None`. The surface has two sides.
     ///
-    /// Points within 10⁻¹² of the largest coordinate of a control point (and 10⁻¹⁵ of the
+    /// Points within 10⁻¹² to 4·10⁻¹² of the largest coordinate of a control point (and 10⁻¹⁵ of the
     /// origin's) from the ray are on it. So faces leave no gaps between them, and a ray that is tangent to the
     /// surface meets it, at a place that is uncertain by the square root of that. Where a ray
     /// runs within the surface its first point there is found. Where bounds are proven
