@@ -173,17 +173,17 @@ impl Cast<'_> {
                 return self.solve(part, fit, point);
             }
             Form::Sampled(fit) if self.meets_once(fit, SAFETY) => {
-                let field = self.inside.field;
+                let Inside { field, memory, .. } = self.inside;
                 let point = |at| {
                     let mut jet = Jet::of(fit, at);
-                    jet.0[0] = field.point(part, at)?;
+                    jet.0[0] = field.point(memory, part, at)?;
                     Ok(jet)
                 };
                 return self.solve(part, fit, point);
             }
             _ => {}
         }
-        for child in self.inside.field.children(part)? {
+        for child in self.inside.field.children(self.inside.memory, part)? {
             if let Some(seen) = self.seen(&child) {
                 queue.push_part(seen.low.z.max(self.line.range[0]), child)?;
             }
@@ -260,7 +260,7 @@ impl Cast<'_> {
     fn seen_at(&self, part: &Part, at: [f64; 2]) -> Result<DVec3> {
         let q = match &part.form {
             Form::Exact(fit) => Jet::of(fit, at).0[0],
-            _ => self.inside.field.point(part, at)?,
+            _ => self.inside.field.point(self.inside.memory, part, at)?,
         };
         Ok(self.line.place(q))
     }

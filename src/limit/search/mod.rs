@@ -27,7 +27,7 @@ use crate::base::{Context, Error, ErrorKind, NONE, Result, Scalar, memory};
 use cast::{Line, Meeting, cast};
 use glam::DVec3;
 use nearest::{Near, nearest};
-use part::{Field, Part};
+use part::{Field, Memory, Part};
 use queue::{Place, Queue};
 use std::sync::Arc;
 use tree::{Branch, Tree};
@@ -135,6 +135,7 @@ struct Inside<'a> {
     field: &'a Field,
     parts: &'a [Part],
     tree: &'a Tree,
+    memory: &'a Memory,
 }
 
 impl Inside<'_> {
@@ -286,12 +287,13 @@ impl Search {
         work: impl Fn(Inside<'_>, usize, &Q, &mut Queue, &mut Visits) -> Result<Option<F>> + Sync + Send,
     ) -> Result<Vec<Option<F>>> {
         context.report(0.0)?;
-        let inside = Inside { context, field: &self.field, parts: &self.parts, tree: &self.tree };
         let room = (queries.len() * size_of::<Option<F>>()) as u64;
         context.check_memory(room)?;
         let shares = memory::collect(queries.chunks(SHARE).enumerate())?;
         let found = context.map(shares, |(share, queries)| {
             let (mut queue, mut visits) = (Queue::default(), Visits::default());
+            let Self { field, parts, tree, .. } = self;
+            let inside = Inside { context, field, parts, tree, memory: &Memory::default() };
             let mut found = memory::reserved(queries.len())?;
             for (i, query) in (share * SHARE..).zip(queries) {
                 found.push(work(inside, i, query, &mut queue, &mut visits)?);
@@ -406,9 +408,9 @@ fn parts(context: &Context, field: &Field) -> Result<Vec<Part>> {
     let all = memory::collect(0..field.roots.len() as u32)?;
     for batch in all.chunks(BATCH) {
         let made = context.map(memory::collect(batch.chunks(SHARE))?, |roots| {
-            let mut made = Vec::new();
+            let (mut made, memory) = (Vec::new(), Memory::default());
             for &root in roots {
-                field.first_parts(root, CUTS, &mut made)?;
+                field.first_parts(&memory, root, CUTS, &mut made)?;
             }
             Ok::<_, Error>(made)
         })?;

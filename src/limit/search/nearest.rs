@@ -111,7 +111,7 @@ impl Nearest<'_> {
         if part.cell.is_smallest() {
             return Ok(());
         }
-        for child in self.inside.field.children(part)? {
+        for child in self.inside.field.children(self.inside.memory, part)? {
             let bound = child.bounds().distance(self.p).max(self.bound(&child));
             if bound <= self.limit() {
                 queue.push_part(bound, child)?;
@@ -136,7 +136,8 @@ impl Nearest<'_> {
         match &part.form {
             Form::Hull(_) => {
                 for &at in corners(shape) {
-                    let distance = self.inside.field.point(part, at)?.distance(p);
+                    let distance =
+                        self.inside.field.point(self.inside.memory, part, at)?.distance(p);
                     self.offer(part, at, distance);
                 }
                 Ok(0.0)
@@ -147,10 +148,10 @@ impl Nearest<'_> {
                 Ok(if is_convex(fit, p, 1.0) { least.lower().sqrt() } else { 0.0 })
             }
             Form::Sampled(fit) => {
-                let field = self.inside.field;
+                let Inside { field, memory, .. } = self.inside;
                 let least = self.minimise(fit, |at| {
                     let mut jet = Jet::of(fit, at);
-                    jet.0[0] = field.point(part, at)?;
+                    jet.0[0] = field.point(memory, part, at)?;
                     Ok(jet)
                 })?;
                 self.offer(part, least.at, least.value.sqrt());

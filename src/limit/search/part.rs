@@ -2,9 +2,10 @@
 
 use super::cell::{Cell, sample};
 use crate::base::{Context, Error, ErrorKind, Result, memory};
-use crate::limit::surface::{Derivatives, Piece, Sample, Surface};
+use crate::limit::surface::{Derivatives, Piece, Sample, Scratch, Surface};
 use crate::limit::tessellate::{Fit, Root, Shape, no_surface, places};
 use glam::DVec3;
+use std::cell::RefCell;
 
 /// What a part is known by.
 #[derive(Debug, Clone)]
@@ -81,6 +82,9 @@ fn bend(fit: &Fit) -> f64 {
     places(fit.shape).map(far).fold(0.0, f64::max)
 }
 
+/// What a thread remembers of cells around features.
+pub(super) type Memory = RefCell<Scratch>;
+
 /// A surface with its positions, of which none exceeds 1.
 #[derive(Debug)]
 pub(super) struct Field {
@@ -104,19 +108,19 @@ impl Field {
     ///
     /// # Errors
     /// [`ErrorKind::Unsupported`] where there is none, and as [`Surface::evaluate`].
-    pub(super) fn part(&self, root: u32, cell: Cell) -> Result<Part> {
+    pub(super) fn part(&self, memory: &Memory, root: u32, cell: Cell) -> Result<Part> {
         let inside = self.sample(root, cell.place([0.25; 2]));
         let side = cell.side.abs();
         let new = |form, slack| Part { root, cell, form, slack };
         match self.surface.piece(&inside, side)? {
             Piece::Missing => Err(no_surface(&self.roots[root as usize])),
-            Piece::Polynomial => Ok(new(Form::Exact(self.fit(root, cell)?), 0.0)),
+            Piece::Polynomial => Ok(new(Form::Exact(self.fit(memory, root, cell)?), 0.0)),
             Piece::Irregular if self.positive => {
                 let points = self.surface.cell_hull(&inside, side, &self.positions)?;
                 Ok(new(Form::Hull(points), 0.0))
             }
             Piece::Regular | Piece::Irregular => {
-                let fit = self.fit(root, cell)?;
+                let fit = self.fit(memory, root, cell)?;
                 Ok(new(Form::Sampled(fit), bend(&fit)))
             }
         }
@@ -126,7 +130,7 @@ impl Field {
     ///
     /// # Errors
     /// As [`Self::part`].
-    pub(super) fn children(&self, part: &Part) -> Result<[Part; 4]> {
+    pub(super) fn children(&self, memory: &Memory, part: &Part) -> Result<[Part; 4]> {
         let (root, cells) = (part.root, part.cell.children(self.shape(part)));
         if let Form::Exact(fit) = &part.form {
             let mut fits = fit.children().into_iter();
@@ -137,19 +141,18 @@ impl Field {
                 Ok(Part { root, cell, form: Form::Exact(fit), slack: 0.0 })
             });
         }
-        each(cells, |cell| self.part(root, cell))
+        each(cells, |cell| self.part(memory, root, cell))
     }
 
-    fn fit(&self, root: u32, cell: Cell) -> Result<Fit> {
+    fn fit(&self, memory: &Memory, root: u32, cell: Cell) -> Result<Fit> {
         let shape = self.roots[root as usize].shape;
-        let mut samples = [Sample { face: 0, sector: 0, u: 0.0, v: 0.0 }; 25];
+        let mut points = [[0.0; 3]; 25];
         let mut count = 0;
-        for place in places(shape) {
-            samples[count] = self.sample(root, cell.place(place.map(|k| k as f64 / 4.0)));
+        for (point, place) in points.iter_mut().zip(places(shape)) {
+            let at = cell.place(place.map(|k| k as f64 / 4.0));
+            *point = self.at(memory, root, at)?.to_array();
             count += 1;
         }
-        let mut points = [[0.0; 3]; 25];
-        self.evaluate(&Context::serial(), &samples[..count], &mut points[..count])?;
         Ok(Fit::new(shape, &points[..count]))
     }
 
@@ -164,32 +167,44 @@ impl Field {
         self.surface.evaluate(context, samples, &self.positions, 3, Derivatives::None, out)
     }
 
+    /// The point with coordinates in a face or sector.
+    fn at(&self, memory: &Memory, root: u32, at: [f64; 2]) -> Result<DVec3> {
+        let busy = |_| Error::new(ErrorKind::BrokenInvariant, "a memory is used twice at once");
+        let mut scratch = memory.try_borrow_mut().map_err(busy)?;
+        let mut point = [0.0; 3];
+        self.surface.one(&self.sample(root, at), &self.positions, 3, &mut scratch, &mut point)?;
+        Ok(DVec3::from(point))
+    }
+
     /// The point of a part with coordinates in its cell.
-    pub(super) fn point(&self, part: &Part, at: [f64; 2]) -> Result<DVec3> {
-        let mut point = [[0.0; 3]];
-        self.evaluate(
-            &Context::serial(),
-            &[self.sample(part.root, part.cell.place(at))],
-            &mut point,
-        )?;
-        Ok(DVec3::from(point[0]))
+    pub(super) fn point(&self, memory: &Memory, part: &Part, at: [f64; 2]) -> Result<DVec3> {
+        self.at(memory, part.root, part.cell.place(at))
     }
 
     /// The parts that a search begins with: irregular cells cut so often, others whole.
-    pub(super) fn first_parts(&self, root: u32, cuts: u32, out: &mut Vec<Part>) -> Result<()> {
+    pub(super) fn first_parts(
+        &self,
+        memory: &Memory,
+        root: u32,
+        cuts: u32,
+        out: &mut Vec<Part>,
+    ) -> Result<()> {
         let shape = self.roots[root as usize].shape;
         let quarters = shape == Shape::Quad && self.surface.has_quarters();
         let cells = Cell::WHOLE.children(shape);
         let cells = if quarters { &cells[..] } else { &[Cell::WHOLE] };
         let mut open = Vec::new();
         for &cell in cells {
-            memory::extend(&mut open, [(self.part(root, cell)?, cuts)])?;
+            memory::extend(&mut open, [(self.part(memory, root, cell)?, cuts)])?;
         }
         while let Some((part, cuts)) = open.pop() {
             if cuts == 0 || matches!(part.form, Form::Exact(_)) {
                 memory::extend(out, [part])?;
             } else {
-                memory::extend(&mut open, self.children(&part)?.map(|part| (part, cuts - 1)))?;
+                memory::extend(
+                    &mut open,
+                    self.children(memory, &part)?.map(|part| (part, cuts - 1)),
+                )?;
             }
         }
         Ok(())

@@ -39,7 +39,8 @@ use crate::base::{Context, Element, Error, ErrorKind, NONE, Result, Scalar, memo
 use crate::mesh::Mesh;
 use crate::scheme::{Method, Scheme};
 use cell::{Kind, Map};
-use evaluation::{Cell, PARTIALS, Patches, Scratch, Start};
+pub(in crate::limit) use evaluation::Scratch;
+use evaluation::{Cell, PARTIALS, Patches, Start};
 use nodes::{Builder, Node};
 pub(in crate::limit) use pieces::Piece;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -331,7 +332,8 @@ impl Surface {
         Ok(weights)
     }
 
-    fn one<T: Scalar>(
+    /// Evaluates one sample into `sums`, as [`Surface::evaluate`] does without its checks.
+    pub(in crate::limit) fn one<T: Scalar>(
         &self,
         sample: &Sample,
         values: &[T],
