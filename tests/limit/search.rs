@@ -19,6 +19,10 @@ fn minus(a: Point, b: Point) -> Point {
     [0, 1, 2].map(|k| a[k] - b[k])
 }
 
+fn bits(p: Point) -> [u64; 3] {
+    p.map(f64::to_bits)
+}
+
 fn length(a: Point) -> f64 {
     (a[0] * a[0] + a[1] * a[1] + a[2] * a[2]).sqrt()
 }
@@ -195,7 +199,7 @@ fn check_closest(case: &Case, grid: u32, count: usize) {
     let queries = case.queries(count);
     for (&query, found) in queries.iter().zip(case.closest(&queries)) {
         let Closest { sample, point, distance } = found;
-        assert_eq!(point, case.point(sample), "{}: {query:?}", case.name);
+        assert_eq!(bits(point), bits(case.point(sample)), "{}: {query:?}", case.name);
         let scale = 1.0_f64.max(length(query));
         let apart = (length(minus(point, query)) - distance).abs();
         assert!(apart <= EXACT * scale, "{}: {query:?}, {found:?}, {apart}", case.name);
@@ -267,7 +271,7 @@ fn a_plane_has_the_feet_one_expects() {
         assert_eq!(hit.is_some(), inside, "{ray:?}");
         if let Some(hit) = hit {
             assert!((hit.t - 1.0).abs() < EXACT * 10.0, "{ray:?}: {hit:?}");
-            assert_eq!(hit.point, case.point(hit.sample));
+            assert_eq!(bits(hit.point), bits(case.point(hit.sample)));
         }
     }
 }
@@ -293,7 +297,7 @@ fn check_inside(case: &Case, count: usize, grid: u32) {
     let hits = case.hits(&rays);
     for (i, (ray, hit)) in rays.iter().zip(&hits).enumerate() {
         let hit = hit.unwrap_or_else(|| panic!("{name}: {ray:?} slips through"));
-        assert_eq!(hit.point, case.point(hit.sample), "{name}");
+        assert_eq!(bits(hit.point), bits(case.point(hit.sample)), "{name}");
         let on = [0, 1, 2].map(|k| ray.origin[k] + hit.t * ray.direction[k]);
         assert!(length(minus(on, hit.point)) < EXACT, "{name}: {ray:?}, {hit:?}");
         if i + aimed.len() >= rays.len() {
@@ -470,8 +474,8 @@ fn sizes_do_not_matter() {
         for (found, expected) in out.into_iter().zip(&expected) {
             let found = found.unwrap();
             assert_eq!(found.sample, expected.sample);
-            assert_eq!(found.point, scaled(expected.point));
-            assert_eq!(found.distance, expected.distance * factor);
+            assert_eq!(bits(found.point), bits(scaled(expected.point)));
+            assert_eq!(found.distance.to_bits(), (expected.distance * factor).to_bits());
         }
         for shrink in [1.0, factor] {
             let rays: Vec<Ray> = rays
