@@ -16,6 +16,7 @@
 //! | `limits` | positions, tangents, normals |
 //! | `surface` | any point, between vertices too |
 //! | `tessellate` | triangles within a tolerance of it |
+//! | `search` | its point nearest to another, and where rays meet it |
 
 mod centres;
 mod feature;
@@ -25,6 +26,7 @@ mod neighbourhood;
 mod part;
 mod rows;
 mod rule;
+mod search;
 mod surface;
 mod tessellate;
 mod weights;
@@ -34,5 +36,6 @@ pub use limits::Limits;
 pub use local::LocalMatrix;
 #[cfg(feature = "spectra")]
 pub(crate) use local::{Model, control_reach};
+pub use search::{Closest, Hit, Ray, Search};
 pub use surface::{Derivatives, Sample, Surface, SurfaceWeight};
 pub use tessellate::{Fineness, Screen, TessellateOptions, Tessellation, tessellate};

@@ -6,6 +6,7 @@ mod derivatives;
 mod points;
 mod refusals;
 mod regular;
+mod search;
 mod stencils;
 mod tessellation;
 mod weights;

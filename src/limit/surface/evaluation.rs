@@ -53,8 +53,8 @@ pub(super) struct Cell<'a, T> {
 }
 
 /// Memory of a thread, for values that stay the same.
-#[derive(Default)]
-pub(super) struct Scratch {
+#[derive(Debug, Default)]
+pub(in crate::limit) struct Scratch {
     points: Vec<Block>,
     sums: Vec<Block>,
     taps: Vec<f64>,

@@ -16,6 +16,7 @@
 //! | `batch` | many samples |
 //! | `stencils` | the same for values that come again and again |
 //! | `pieces` | what the surface is over a part of a face |
+//! | `hull` | points in whose hull it is there |
 
 mod batch;
 #[allow(clippy::needless_range_loop, reason = "several arrays share an index")]
@@ -25,6 +26,7 @@ mod digits;
 #[allow(clippy::needless_range_loop, reason = "several arrays share an index")]
 mod evaluation;
 mod grid;
+mod hull;
 #[allow(clippy::needless_range_loop, reason = "several arrays share an index")]
 mod lanes;
 #[allow(clippy::needless_range_loop, reason = "several arrays share an index")]
@@ -42,7 +44,8 @@ use crate::base::{Context, Element, Error, ErrorKind, NONE, Result, Scalar, memo
 use crate::mesh::{Channel, Mesh};
 use crate::scheme::{ChannelRules, Method, Scheme};
 use cell::{Kind, Map};
-use evaluation::{Cell, PARTIALS, Patches, Scratch, Start};
+pub(in crate::limit) use evaluation::Scratch;
+use evaluation::{Cell, PARTIALS, Patches, Start};
 use nodes::{Builder, Node};
 pub(in crate::limit) use pieces::Piece;
 use std::sync::{Arc, Mutex, PoisonError};
@@ -382,6 +385,21 @@ impl Surface {
     /// The first cell of a sample.
     fn cell<'a, T>(&'a self, start: &Start, values: &'a [T], width: usize) -> Cell<'a, T> {
         Cell { vertices: self.cell_points(start.corner), values, width }
+    }
+
+    /// Evaluates one sample into `sums`, as [`Surface::evaluate`] does without its checks.
+    pub(in crate::limit) fn one<T: Scalar>(
+        &self,
+        sample: &Sample,
+        values: &[T],
+        width: usize,
+        scratch: &mut Scratch,
+        sums: &mut [f64],
+    ) -> Result<()> {
+        let in_face = |error| named(error, sample);
+        let start = self.start(sample).map_err(in_face)?;
+        let cell = self.cell(&start, values, width);
+        self.patches().evaluate(&cell, &start, scratch, sums).map_err(in_face)
     }
 
     fn patches(&self) -> Patches<'_> {

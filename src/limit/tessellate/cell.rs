@@ -12,7 +12,7 @@ pub(super) type Point = [i32; 2];
 
 /// What part of a face has coordinates of its own.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Shape {
+pub(in crate::limit) enum Shape {
     /// All of a quad.
     Quad,
     /// The sector at a corner of another face.
@@ -23,16 +23,16 @@ pub(super) enum Shape {
 
 /// A face, or a sector of one.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Root {
-    pub(super) shape: Shape,
-    pub(super) face: u32,
-    pub(super) sector: u32,
+pub(in crate::limit) struct Root {
+    pub(in crate::limit) shape: Shape,
+    pub(in crate::limit) face: u32,
+    pub(in crate::limit) sector: u32,
     /// The corner that has coordinates (0, 0).
     pub(super) corner: u32,
 }
 
 impl Root {
-    pub(super) fn new(surface: &Surface, face: u32, sector: u32) -> Self {
+    pub(in crate::limit) fn new(surface: &Surface, face: u32, sector: u32) -> Self {
         let corners = surface.mesh().layout.face(face);
         let shape = match corners.len() {
             _ if surface.is_triangle(face as usize) => Shape::Triangle,

@@ -13,19 +13,19 @@ const N: usize = 5;
 /// The coefficient of i parts of the second corner and j of the last stands at i + 5j; in
 /// triangles i + j is at most 4.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Fit {
-    pub(super) shape: Shape,
+pub(in crate::limit) struct Fit {
+    pub(in crate::limit) shape: Shape,
     coefficients: [DVec3; N * N],
 }
 
 /// The places of coefficients, and of the points that they are found from, in order.
-pub(super) fn places(shape: Shape) -> impl Iterator<Item = [usize; 2]> {
+pub(in crate::limit) fn places(shape: Shape) -> impl Iterator<Item = [usize; 2]> {
     let most = move |j: usize| if shape == Shape::Triangle { N - j } else { N };
     (0..N).flat_map(move |j| (0..most(j)).map(move |i| [i, j]))
 }
 
 /// The number of [`places`].
-pub(super) fn count(shape: Shape) -> usize {
+pub(in crate::limit) fn count(shape: Shape) -> usize {
     if shape == Shape::Triangle { N * (N + 1) / 2 } else { N * N }
 }
 
@@ -55,7 +55,7 @@ fn halves(mut b: [DVec3; N]) -> [[DVec3; N]; 2] {
 
 impl Fit {
     /// From points in the order of [`places`].
-    pub(super) fn new(shape: Shape, points: &[[f64; 3]]) -> Self {
+    pub(in crate::limit) fn new(shape: Shape, points: &[[f64; 3]]) -> Self {
         let mut fit = Self { shape, coefficients: [DVec3::ZERO; N * N] };
         for ([i, j], &point) in places(shape).zip(points) {
             fit.coefficients[i + N * j] = DVec3::from(point);
@@ -67,12 +67,12 @@ impl Fit {
         fit
     }
 
-    pub(super) fn at(&self, i: usize, j: usize) -> DVec3 {
+    pub(in crate::limit) fn at(&self, i: usize, j: usize) -> DVec3 {
         self.coefficients[i + N * j]
     }
 
     /// All coefficients.
-    pub(super) fn all(&self) -> impl Iterator<Item = DVec3> + '_ {
+    pub(in crate::limit) fn all(&self) -> impl Iterator<Item = DVec3> + '_ {
         places(self.shape).map(|[i, j]| self.at(i, j))
     }
 
@@ -128,12 +128,12 @@ impl Fit {
     }
 
     /// The coefficients along each side.
-    pub(super) fn side_lines(&self) -> impl Iterator<Item = [DVec3; N]> + '_ {
+    pub(in crate::limit) fn side_lines(&self) -> impl Iterator<Item = [DVec3; N]> + '_ {
         Self::sides(self.shape).iter().map(|&(from, step)| self.line(from, step))
     }
 
     /// Those of the parts, in the order of [`super::cell::Cell::children`].
-    pub(super) fn children(&self) -> [Self; 4] {
+    pub(in crate::limit) fn children(&self) -> [Self; 4] {
         if self.shape == Shape::Triangle {
             self.triangle_children()
         } else {
@@ -190,7 +190,7 @@ impl Fit {
     }
 
     /// The points at halves of the sides; in triangles those with a sum of 2 at most.
-    pub(super) fn points(&self) -> [[DVec3; 3]; 3] {
+    pub(in crate::limit) fn points(&self) -> [[DVec3; 3]; 3] {
         let three =
             |b: [DVec3; N]| [b[0], (b[0] + b[4] + 4.0 * (b[1] + b[3]) + 6.0 * b[2]) / 16.0, b[4]];
         if self.shape == Shape::Triangle {

@@ -29,10 +29,13 @@ mod triangles;
 
 use super::surface::{Sample, Surface};
 use crate::base::{Context, Element, Error, ErrorKind, Result, Scalar, memory};
-use cell::{MOST_LEVELS, Root};
+use cell::MOST_LEVELS;
+pub(super) use cell::{Root, Shape};
+pub(super) use fit::{Fit, places};
 use measure::Measure;
 use net::Net;
 use plan::Plan;
+pub(super) use split::no_surface;
 use split::{Goal, Leaves};
 
 /// When triangles are small enough.
@@ -246,7 +249,7 @@ fn scale_by(coordinates: &mut [f64], exponent: i32) {
 }
 
 /// Positions in double precision.
-fn checked<T: Scalar>(surface: &Surface, positions: &[T]) -> Result<Vec<f64>> {
+pub(super) fn checked<T: Scalar>(surface: &Surface, positions: &[T]) -> Result<Vec<f64>> {
     let vertices = surface.columns();
     if positions.len() != 3 * vertices {
         let message = format!("{} numbers for {vertices} positions", positions.len());
@@ -261,7 +264,7 @@ fn checked<T: Scalar>(surface: &Surface, positions: &[T]) -> Result<Vec<f64>> {
 }
 
 /// The faces and sectors with a surface.
-fn roots(surface: &Surface) -> Result<Vec<Root>> {
+pub(super) fn roots(surface: &Surface) -> Result<Vec<Root>> {
     let faces = 0..surface.mesh().faces() as u32;
     let faces = faces.filter(|face| surface.holes().binary_search(face).is_err());
     let sectors = |face: u32| (0..surface.sectors(face as usize) as u32).map(move |s| (face, s));

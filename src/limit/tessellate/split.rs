@@ -229,7 +229,7 @@ struct Leaf {
     fine: bool,
 }
 
-fn no_surface(root: &Root) -> Error {
+pub(in crate::limit) fn no_surface(root: &Root) -> Error {
     let message = "there is no surface, or none that is evaluated, in a part of the face";
     Error::new(ErrorKind::Unsupported, message).with_elements([Element::Face(u64::from(root.face))])
 }
