@@ -104,6 +104,7 @@
  *   carvel_hierarchy  all levels, kept: values again and again, lineage
  *   carvel_stencils   rows of weights: the cheapest values of a fixed topology
  *   carvel_surface    the limit surface at any point, with derivatives
+ *   carvel_search     its closest points, and where rays meet it
  *   carvel_tessellation  triangles within a tolerance of it
  *   carvel_mask       a scheme of polygons, and what is proved of it
  *   carvel_grid_mask  a scheme of grids, by any mask of two directions
@@ -169,8 +170,8 @@
  *            its boundary is rounded off anew. The surface is the one that more
  *            levels at once give, numbered otherwise.
  *
- * Threads    A mesh, scheme, hierarchy, context, stencil table, surface, tessellation or mask
- *            may be used by any number of threads at once. A refiner serves one call at a time and answers
+ * Threads    A mesh, scheme, hierarchy, context, stencil table, surface, search, tessellation or
+ *            mask may be used by any number of threads at once. A refiner serves one call at a time and answers
  *            CARVEL_STATUS_BUSY to another. An error belongs to one thread at
  *            a time. There is no global state that a caller could see, no
  *            hidden thread pool.
@@ -1759,6 +1760,84 @@ CARVEL_API carvel_status carvel_surface_stencils(const carvel_context *context,
                                                  uint64_t sample_count, int32_t derivatives,
                                                  int32_t precision, carvel_stencils **out,
                                                  carvel_error *error);
+
+/* ==========================================================================
+ * carvel_search: closest points and rays
+ *
+ * The point of a limit surface that is nearest to another, and the first one on a ray. The
+ * surface is cut into parts with bounds, which lead to what is asked for; docs/search.md says
+ * how far they are proven. Immutable and shared freely.
+ * ========================================================================== */
+
+typedef struct carvel_search carvel_search;
+
+/* The point of a surface nearest to another. Where nothing was found the face of `sample` is
+ * UINT32_MAX and the distance infinite. The layout is final. */
+typedef struct carvel_closest {
+    /* Where it is: carvel_surface_evaluate has the derivatives there. */
+    carvel_sample sample;
+    double point[3];
+    double distance;
+} carvel_closest;
+
+/* A ray, or a segment: the points origin + t direction, t being in a range. The layout is
+ * final. */
+typedef struct carvel_ray {
+    /* Finite. */
+    double origin[3];
+    /* Finite, not zero, of any length. */
+    double direction[3];
+    /* The smallest and the largest t, which may be infinite. */
+    double range[2];
+} carvel_ray;
+
+/* The first point of a surface on a ray. Where there is none the face of `sample` is UINT32_MAX
+ * and t infinite. The layout is final. */
+typedef struct carvel_hit {
+    carvel_sample sample;
+    double point[3];
+    double t;
+} carvel_hit;
+
+/* Cuts a surface into parts. The surface may be destroyed; the positions, three numbers for
+ * each control vertex, are copied. Time and memory grow with the faces: about a kilobyte for a
+ * regular one, ten for each extraordinary corner of another.
+ * Errors: NULL_POINTER, MISALIGNED, INVALID_STRIDE; LENGTH_MISMATCH for other than three numbers
+ * for each vertex; NOT_FINITE, naming the vertex; UNSUPPORTED, naming the face, where the
+ * surface is not evaluated all over it, unless it is a hole; TOO_LARGE, MEMORY_CEILING,
+ * OUT_OF_RESOURCES, CANCELLED. */
+CARVEL_API carvel_status carvel_search_create_f32(const carvel_context *context,
+                                                  const carvel_surface *surface,
+                                                  const carvel_const_values_f32 *positions,
+                                                  carvel_search **out, carvel_error *error);
+CARVEL_API carvel_status carvel_search_create_f64(const carvel_context *context,
+                                                  const carvel_surface *surface,
+                                                  const carvel_const_values_f64 *positions,
+                                                  carvel_search **out, carvel_error *error);
+
+/* Destroys a search. NULL is allowed. */
+CARVEL_API void carvel_search_destroy(carvel_search *search);
+
+/* For each of the points, three numbers each, the nearest point of the surface: `out` has room for
+ * as many. The same at any number of threads. No other point of the surface is nearer by more
+ * than 1e-9 of the distance, or 1e-12 of the largest coordinate.
+ * reach: how far away it may be, 0 to infinity.
+ * Errors: NULL_POINTER, MISALIGNED, OVERLAP, TOO_LARGE; NOT_FINITE and PARAMETER_OUT_OF_RANGE for
+ * a point, whose number the message has, and for a reach; MEMORY_CEILING, OUT_OF_RESOURCES,
+ * CANCELLED. After the last three the content of `out` is undefined. */
+CARVEL_API carvel_status carvel_search_closest(const carvel_search *search,
+                                               const carvel_context *context,
+                                               const double *points, uint64_t point_count,
+                                               double reach, carvel_closest *out,
+                                               carvel_error *error);
+
+/* For each of the rays the first point of the surface on it; `out` has room for as many. The
+ * surface has two sides. Points within 1e-12 of the largest coordinate from a ray are on it.
+ * Errors: as carvel_search_closest, for rays. */
+CARVEL_API carvel_status carvel_search_intersect(const carvel_search *search,
+                                                 const carvel_context *context,
+                                                 const carvel_ray *rays, uint64_t ray_count,
+                                                 carvel_hit *out, carvel_error *error);
 
 /* ==========================================================================
  * carvel_tessellation: triangles on the limit surface

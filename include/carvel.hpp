@@ -71,6 +71,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
@@ -675,6 +676,7 @@ inline void destroy(carvel_refiner *object) { carvel_refiner_destroy(object); }
 inline void destroy(carvel_hierarchy *object) { carvel_hierarchy_destroy(object); }
 inline void destroy(carvel_stencils *object) { carvel_stencils_destroy(object); }
 inline void destroy(carvel_surface *object) { carvel_surface_destroy(object); }
+inline void destroy(carvel_search *object) { carvel_search_destroy(object); }
 inline void destroy(carvel_tessellation *object) { carvel_tessellation_destroy(object); }
 inline void destroy(carvel_mask *object) { carvel_mask_destroy(object); }
 inline void destroy(carvel_grid_mask *object) { carvel_grid_mask_destroy(object); }
@@ -755,6 +757,18 @@ inline carvel_status evaluate(const carvel_surface *surface, const carvel_contex
 {
     return carvel_surface_evaluate_f64(surface, context, samples, count,
                                        static_cast<std::int32_t>(derivatives), values, out, error);
+}
+inline carvel_status search(const carvel_context *context, const carvel_surface *surface,
+                            const carvel_const_values_f32 *positions, carvel_search **out,
+                            carvel_error *error)
+{
+    return carvel_search_create_f32(context, surface, positions, out, error);
+}
+inline carvel_status search(const carvel_context *context, const carvel_surface *surface,
+                            const carvel_const_values_f64 *positions, carvel_search **out,
+                            carvel_error *error)
+{
+    return carvel_search_create_f64(context, surface, positions, out, error);
 }
 inline carvel_status tessellate(const carvel_context *context, const carvel_surface *surface,
                                 const carvel_const_values_f32 *positions,
@@ -2264,6 +2278,83 @@ public:
                       const Context *context = nullptr) const
     {
         return try_stencils(samples, derivatives, precision, context).value();
+    }
+#endif
+};
+
+/* ==========================================================================
+ * Search: closest points and rays
+ * ========================================================================== */
+
+using Closest = carvel_closest;
+using Ray = carvel_ray;
+using Hit = carvel_hit;
+
+/* True if there is such a point. */
+inline bool found(const Closest &closest) noexcept { return closest.sample.face != UINT32_MAX; }
+inline bool found(const Hit &hit) noexcept { return hit.sample.face != UINT32_MAX; }
+
+/* carvel_search. */
+class Search : public detail::Handle<carvel_search, detail::destroy> {
+public:
+    using Handle::Handle;
+    /* Hands the object over to the caller. */
+    carvel_search *release() noexcept { return object_.release(); }
+
+    /* Takes what values() takes, or what values(), rows() and columns() give. */
+    template <class V>
+    static Result<Search> try_create(const Surface &surface, const V &control,
+                                     const Context *context = nullptr)
+    {
+        const ConstValues from = values(control);
+        detail::Call call;
+        carvel_search *out = nullptr;
+        call.status =
+            detail::search(detail::raw(context), surface.get(), &from, &out, call.error());
+        return call.result(Search(out));
+    }
+
+    /* The nearest point of the surface for each point. */
+    Result<std::vector<Closest>> try_closest(Span<const std::array<double, 3>> points,
+                                             double reach = HUGE_VAL,
+                                             const Context *context = nullptr) const
+    {
+        detail::Call call;
+        std::vector<Closest> out;
+        const double *first = points.size() == 0 ? nullptr : points.data()->data();
+        if (call.grow(out, points.size()))
+            call.status = carvel_search_closest(get(), detail::raw(context), first, points.size(),
+                                                reach, out.data(), call.error());
+        return call.result(std::move(out));
+    }
+
+    /* The first point of the surface on each ray. */
+    Result<std::vector<Hit>> try_intersect(Span<const Ray> rays,
+                                           const Context *context = nullptr) const
+    {
+        detail::Call call;
+        std::vector<Hit> out;
+        if (call.grow(out, rays.size()))
+            call.status = carvel_search_intersect(get(), detail::raw(context), rays.data(),
+                                                  rays.size(), out.data(), call.error());
+        return call.result(std::move(out));
+    }
+
+#if CARVEL_HPP_THROWS
+    template <class V>
+    static Search create(const Surface &surface, const V &control,
+                         const Context *context = nullptr)
+    {
+        return try_create(surface, control, context).value();
+    }
+    std::vector<Closest> closest(Span<const std::array<double, 3>> points,
+                                 double reach = HUGE_VAL, const Context *context = nullptr) const
+    {
+        return try_closest(points, reach, context).value();
+    }
+    std::vector<Hit> intersect(Span<const Ray> rays, const Context *context = nullptr) const
+    {
+        return try_intersect(rays, context).value();
     }
 #endif
 };

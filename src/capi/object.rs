@@ -10,7 +10,8 @@
 //! | `carvel_refiner` | box around a lock | one call at a time |
 //! | `carvel_hierarchy` | box | by reference |
 //! | `carvel_stencils` | box | by reference; what it makes when first asked is kept |
-//! | `carvel_surface` | box | by reference |
+//! | `carvel_surface` | box around a counted reference | searches hold others |
+//! | `carvel_search` | box | by reference |
 //! | `carvel_tessellation` | box | by reference |
 //! | `carvel_mask`, `carvel_grid_mask` | box | by reference |
 

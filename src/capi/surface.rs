@@ -14,7 +14,7 @@ use crate::limit::{Derivatives, Sample, Surface};
 use crate::sparse::StoredTable;
 use std::sync::Arc;
 
-object!(carvel_surface, Surface);
+object!(carvel_surface, Arc<Surface>);
 
 pub type carvel_sample = Sample;
 
@@ -105,7 +105,7 @@ pub unsafe extern "C" fn carvel_surface_create(
             call.create(out, |call| {
                 let context = call.context(context)?;
                 let (mesh, scheme) = (call.object(mesh)?, call.object(scheme)?);
-                Ok(Surface::new(&context, &Arc::clone(&mesh.mesh), scheme)?)
+                Ok(Arc::new(Surface::new(&context, &Arc::clone(&mesh.mesh), scheme)?))
             })
         })
     }
@@ -125,7 +125,8 @@ pub unsafe extern "C" fn carvel_surface_create_channel(
             call.create(out, |call| {
                 let context = call.context(context)?;
                 let (bound, scheme) = (call.object(channel)?, call.object(scheme)?);
-                Ok(Surface::of_channel(&context, &bound.mesh, &bound.channel, scheme)?)
+                let surface = Surface::of_channel(&context, &bound.mesh, &bound.channel, scheme)?;
+                Ok(Arc::new(surface))
             })
         })
     }

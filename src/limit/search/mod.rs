@@ -57,7 +57,9 @@ pub struct Closest {
 }
 
 /// A ray, or a segment: the points origin + t·direction with t in a range.
+// The layout is that of `carvel_ray`.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[repr(C)]
 pub struct Ray {
     /// Where t is 0; finite.
     pub origin: [f64; 3],

@@ -49,6 +49,17 @@ int main()
                      carvel::values(at_samples, 1));
     CHECK(std::fabs(at_samples[0] - 3) < 1e-13 && std::fabs(at_samples[1] - 3) < 1e-13);
 
+    const carvel::Search search = carvel::Search::create(surface, control);
+    const std::vector<std::array<double, 3>> points = {{0, 0, 2}, {0, 0, 5}};
+    const std::vector<carvel::Closest> nearest = search.closest(points, 3);
+    CHECK(carvel::found(nearest[0]) && !carvel::found(nearest[1]));
+    const std::vector<carvel::Ray> rays = {{{0, 0, 2}, {0, 0, -1}, {0, 9}},
+                                           {{3, 3, 2}, {0, 0, -1}, {0, 9}}};
+    const std::vector<carvel::Hit> hits = search.intersect(rays);
+    CHECK(carvel::found(hits[0]) && !carvel::found(hits[1]));
+    CHECK(hits[0].t >= nearest[0].distance - 1e-9);
+    CHECK(!search.try_closest(points, -1));
+
     carvel::TessellationDesc fine;
     fine.tolerance = 0.02;
     const carvel::Tessellation made = carvel::Tessellation::create(surface, control, fine);
