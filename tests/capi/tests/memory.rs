@@ -66,6 +66,7 @@ fn channels_are_clean() {
 #[test]
 fn surfaces_are_clean() {
     memcheck("surface", &[]);
+    memcheck("search", &[]);
     memcheck("tessellation", &[]);
 }
 

@@ -74,6 +74,11 @@ fn surfaces_are_evaluated_anywhere() {
 }
 
 #[test]
+fn surfaces_are_searched() {
+    run_with_both("search", &[]);
+}
+
+#[test]
 fn surfaces_become_triangles() {
     run_with_both("tessellation", &[]);
 }
