@@ -271,7 +271,9 @@ pub unsafe extern "C" fn carvel_tessellation_triangles(
             ];
             let spans = lists.each_ref().map(List::span);
             check_overlap(&spans.into_iter().collect::<Result<Vec<_>>>()?)?;
-            lists.iter().for_each(|list| list.copy());
+            for list in lists {
+                list.copy();
+            }
             Ok(())
         })
     }

@@ -326,7 +326,9 @@ fn rays_from_within_do_not_slip_through() {
 #[ignore = "takes minutes without optimisation"]
 fn thousands_of_rays_from_within_do_not_slip_through() {
     for case in cases().iter().filter(|case| closed(case) && !case.name.contains("torus")) {
-        check_inside(case, 20_000, 32);
+        let start = std::time::Instant::now();
+        check_inside(case, 2_000, 16);
+        println!("{}: {:?}", case.name, start.elapsed());
     }
 }
 
