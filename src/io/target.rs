@@ -59,7 +59,11 @@ fn through_temporary(
 
 /// The reason alone, without the temporary name that tempfile adds.
 fn bare(error: io::Error) -> io::Error {
-    if error.raw_os_error().is_some() { error } else { error.kind().into() }
+    let text = error.to_string();
+    match text.split_once(" at path ") {
+        Some((reason, _)) => io::Error::new(error.kind(), reason),
+        None => error,
+    }
 }
 
 /// The file that a path leads to in the end, which need not exist yet.
