@@ -79,12 +79,9 @@ impl Surface {
     fn start_all(&self, samples: &[Sample], ways: &mut [Way]) -> Option<Failed> {
         let mut failed = None;
         for (i, (way, sample)) in ways.iter_mut().zip(samples).enumerate() {
-            match self.place(sample) {
-                Ok(start) => way.start = start,
-                Err(error) => {
-                    failed = Some((i, error));
-                    break;
-                }
+            if let Err(error) = self.place(sample, &mut way.start) {
+                failed = Some((i, error));
+                break;
             }
             way.place = NONE;
             fetch_ahead(&self.roots, way.start.corner as usize);
@@ -181,7 +178,7 @@ impl Surface {
     ) -> Option<bool> {
         let mut sums = [ZERO; R];
         if way.place == NONE {
-            let (at, jacobian) = (way.start.at, way.start.jacobian);
+            let (at, jacobian) = (&way.start.at, &way.start.jacobian);
             let patch = self.quick_patch(way.start.node).filter(|_| !values.is_empty())?;
             let points = &self.points[way.start.points as usize..];
             match patch {
@@ -201,7 +198,7 @@ impl Surface {
         }
         let place = scratch.memo.place(way.place);
         let (points, origin) = scratch.memo.points(place, 1);
-        let (at, jacobian, origin) = (way.at, place.jacobian, origin[0]);
+        let (at, jacobian, origin) = (&way.at, &place.jacobian, origin[0]);
         match self.quick_patch(place.node)? {
             Quick::Bicubic => {
                 let points = Remembered::<16> { points: points.first_chunk()?, origin };

@@ -43,7 +43,7 @@ mod vicinity;
 use crate::base::{Context, Element, Error, ErrorKind, NONE, Result, Scalar, memory};
 use crate::mesh::{Channel, Mesh};
 use crate::scheme::{ChannelRules, Method, Scheme};
-use cell::{Kind, Map};
+use cell::Kind;
 pub(in crate::limit) use evaluation::Scratch;
 use evaluation::{Cell, PARTIALS, Patches, Start};
 use nodes::{Builder, Node};
@@ -254,7 +254,12 @@ impl Surface {
     /// # Panics
     /// If `face` is not below [`Mesh::faces`].
     pub fn sectors(&self, face: usize) -> usize {
-        match self.mesh.face_corners(face).len() {
+        self.sectors_of(self.mesh.face_corners(face).len())
+    }
+
+    /// The same of a face with so many sides.
+    fn sectors_of(&self, sides: usize) -> usize {
+        match sides {
             4 => 1,
             3 if self.method == Method::Loop => 1,
             sides => sides,
@@ -415,33 +420,31 @@ impl Surface {
 
     /// Where the evaluation of a sample starts.
     fn start(&self, sample: &Sample) -> Result<Start> {
-        let mut start = self.place(sample)?;
+        let mut start = Start::NOWHERE;
+        self.place(sample, &mut start)?;
         let root = self.roots[start.corner as usize];
         (start.node, start.points) = (root.node, root.start);
         Ok(start)
     }
 
     /// The same, but for the node and its points.
-    fn place(&self, sample: &Sample) -> Result<Start> {
-        let out_of_range =
-            |message: String| Err(Error::new(ErrorKind::ParameterOutOfRange, message));
+    #[inline(always)]
+    fn place(&self, sample: &Sample, start: &mut Start) -> Result<()> {
         let &Sample { face, sector, u, v } = sample;
-        if face as usize >= self.mesh.faces() {
-            return out_of_range(format!("face {face} of {}", self.mesh.faces()));
-        }
-        let sectors = self.sectors(face as usize);
-        if sector as usize >= sectors {
-            return out_of_range(format!("sector {sector} of {sectors}"));
-        }
         let is_loop = self.method == Method::Loop;
         let within = (0.0..=1.0).contains(&u) && (0.0..=1.0).contains(&v);
-        if !within || (is_loop && u + v > 1.0) {
-            return out_of_range(format!("({u}, {v}) is not in the face"));
+        if face as usize >= self.mesh.faces() || !within || (is_loop && u + v > 1.0) {
+            return Err(self.outside(sample));
+        }
+        let corners = self.mesh.layout.face(face);
+        let sectors = self.sectors_of(corners.len());
+        if sector as usize >= sectors {
+            return Err(self.outside(sample));
         }
         if self.holes.binary_search(&face).is_ok() {
             return Err(Error::new(ErrorKind::Unsupported, "the face is a hole"));
         }
-        let corner = self.mesh.layout.face(face).start + sector;
+        let corner = corners.start + sector;
         let (corner, at, map) = match self.method {
             Method::Dual if sectors == 1 => {
                 let (place, map) = cell::quarter([u, v]);
@@ -449,8 +452,23 @@ impl Surface {
             }
             _ => (corner, [u, v], cell::IDENTITY),
         };
-        let Map { linear, .. } = map;
-        Ok(Start { corner, at, jacobian: linear, ..Start::NOWHERE })
+        (start.corner, start.at, start.jacobian) = (corner, at, map.linear);
+        Ok(())
+    }
+
+    /// What is wrong with a sample that lies nowhere.
+    #[cold]
+    fn outside(&self, &Sample { face, sector, u, v }: &Sample) -> Error {
+        let faces = self.mesh.faces();
+        let sectors = if (face as usize) < faces { self.sectors(face as usize) } else { 0 };
+        let message = if face as usize >= faces {
+            format!("face {face} of {faces}")
+        } else if sector as usize >= sectors {
+            format!("sector {sector} of {sectors}")
+        } else {
+            format!("({u}, {v}) is not in the face")
+        };
+        Error::new(ErrorKind::ParameterOutOfRange, message)
     }
 }
 

@@ -109,9 +109,10 @@ where
 /// A patch at a point.
 pub(super) struct Patch<'a, P, const R: usize> {
     pub(super) points: P,
-    pub(super) at: [f64; 2],
+    // What was stored in parts a moment ago is slow to read as a whole: both stay where they are.
+    pub(super) at: &'a [f64; 2],
     /// Derivatives of cell coordinates by those asked for.
-    pub(super) jacobian: [[f64; 2]; 2],
+    pub(super) jacobian: &'a [[f64; 2]; 2],
     // With all lanes written the compiler keeps them together in one register.
     pub(super) sums: &'a mut [Block; R],
 }
@@ -121,9 +122,9 @@ impl<P: Points, const R: usize> InnerLoop for Patch<'_, P, R> {
 
     #[inline(always)]
     fn run(self) {
-        let mut sums = self.points.sums::<R>(self.at);
-        if R > 1 && self.jacobian != IDENTITY.linear {
-            change(self.jacobian, &mut sums);
+        let mut sums = self.points.sums::<R>(*self.at);
+        if R > 1 && *self.jacobian != IDENTITY.linear {
+            change(*self.jacobian, &mut sums);
         }
         *self.sums = sums;
     }
