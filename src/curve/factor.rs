@@ -14,6 +14,9 @@ use super::rational::{Rational, ratio, to_fraction};
 use super::roots::rational_roots;
 use crate::base::{Error, ErrorKind, Fraction, Result};
 
+/// As many as schemes may have.
+const MOST_PASSES: usize = 64;
+
 /// How the faces of a mesh are split.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub enum CurveSplit {
@@ -38,8 +41,8 @@ impl Factors {
     ///
     /// # Errors
     /// [`ErrorKind::Unsupported`], with the reason: the mask is not binary, not symmetric,
-    /// lacks the split's factor, or has passes that are irrational or complex, or whose
-    /// terms do not fit 64 bits.
+    /// lacks the split's factor, or has more than 64 passes, or passes that are irrational or
+    /// complex, or whose terms do not fit 64 bits.
     pub fn of(mask: &Mask) -> Result<Self> {
         if mask.arity() != 2 {
             return Err(refused(&format!("its arity is {}, not 2", mask.arity())));
@@ -54,6 +57,12 @@ impl Factors {
         };
         let rest = mask.symbol().divided_by(&factor);
         let rest = rest.ok_or_else(|| refused(&format!("{name} is no factor of it")))?;
+        let most = 2 * MOST_PASSES + 1;
+        if rest.coefficients().len() > most {
+            let passes = rest.coefficients().len() / 2;
+            let message = format!("it would take {passes}, schemes have {MOST_PASSES} at most");
+            return Err(refused(&message));
+        }
         let polynomial = in_cosines(&rest);
         let roots = rational_roots(&polynomial);
         if roots.len() + 1 < polynomial.len() {

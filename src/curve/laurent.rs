@@ -4,9 +4,11 @@
 
 use std::ops::{Add, Mul, Sub};
 
-use num_traits::{One, Zero};
+use num_bigint::BigInt;
+use num_integer::Integer as _;
+use num_traits::{One, Zero, pow};
 
-use super::rational::{Rational, ratio};
+use super::rational::{Rational, over_common, ratio};
 
 /// A Laurent polynomial; neither the first nor the last coefficient is 0.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -106,9 +108,10 @@ impl Laurent {
 
     /// The n-th derivative at 1: Σ k(k−1)…(k−n+1) aₖ.
     pub fn derivative_at_one(&self, n: usize) -> Rational {
-        let falling = |k: i64| (0..n as i64).map(|i| ratio(k - i, 1)).product::<Rational>();
-        let terms = self.coefficients.iter().enumerate();
-        terms.map(|(i, c)| c * falling(self.lowest + i as i64)).sum()
+        let (whole, common) = over_common(self.coefficients.iter());
+        let falling = |k: i64| (0..n as i64).map(|i| BigInt::from(k - i)).product::<BigInt>();
+        let terms = whole.into_iter().zip(self.lowest..);
+        Rational::new(terms.map(|(c, k)| c * falling(k)).sum(), common)
     }
 
     /// The quotient by a polynomial, up to a power of z, if there is no remainder.
@@ -116,37 +119,57 @@ impl Laurent {
     /// The quotient's exponents are such that quotient · divisor is the polynomial itself.
     /// `None` for a divisor 0. O(length of the quotient · length of the divisor).
     pub fn divided_by(&self, divisor: &Self) -> Option<Self> {
-        let leading = divisor.coefficients.first()?;
-        let Some(length) = (self.coefficients.len() + 1).checked_sub(divisor.coefficients.len())
-        else {
-            return self.is_zero().then(|| self.clone());
-        };
-        let mut rest = self.coefficients.clone();
-        let mut quotient = Vec::new();
-        for i in 0..length {
-            let Some(first) = rest.get(i) else { break };
-            let factor = first / leading;
-            if !factor.is_zero() {
-                for (j, d) in divisor.coefficients.iter().enumerate() {
-                    rest[i + j] -= d * &factor;
-                }
-            }
-            quotient.push(factor);
-        }
-        let exact = rest.iter().all(Zero::is_zero);
-        exact.then(|| Self::new(self.lowest - divisor.lowest, quotient))
+        let (quotient, times) = self.divided(divisor, 1);
+        (times == 1).then_some(quotient)
     }
 
     /// Divides as often as there is no remainder, `most` times at most: the quotient and
     /// how often. Nothing is divided by a unit (a single term), or in 0.
     pub fn stripped_of(&self, divisor: &Self, most: usize) -> (Self, usize) {
-        let (mut rest, mut times) = (self.clone(), 0);
-        while times < most && !rest.is_zero() && divisor.coefficients.len() > 1 {
-            let Some(quotient) = rest.divided_by(divisor) else { break };
+        let may = !self.is_zero() && divisor.coefficients.len() > 1;
+        self.divided(divisor, if may { most } else { 0 })
+    }
+
+    /// The same by any divisor, in integers, which have no common factors to be looked for.
+    fn divided(&self, divisor: &Self, most: usize) -> (Self, usize) {
+        let (whole, denominator) = over_common(divisor.coefficients.iter());
+        let content = whole.iter().fold(BigInt::zero(), |all, c| all.gcd(c));
+        let primitive: Vec<BigInt> = whole.iter().map(|c| c / &content).collect();
+        let (mut rest, common) = over_common(self.coefficients.iter());
+        let mut times = 0;
+        while times < most
+            && let Some(quotient) = quotient(&rest, &primitive)
+        {
             (rest, times) = (quotient, times + 1);
         }
-        (rest, times)
+        let scale = pow(Rational::new(denominator, content.max(BigInt::one())), times);
+        let (numerator, common) = (scale.numer(), common * scale.denom());
+        let coefficients = rest.into_iter().map(|c| Rational::new(c * numerator, common.clone()));
+        let lowest = self.lowest - divisor.lowest * times as i64;
+        (Self::new(lowest, coefficients.collect()), times)
     }
+}
+
+/// The quotient of polynomials by falling powers, if there is no remainder. The divisor's
+/// coefficients have no common factor: the quotient's are integers then (Gauss).
+fn quotient(dividend: &[BigInt], divisor: &[BigInt]) -> Option<Vec<BigInt>> {
+    let leading = divisor.first()?;
+    let length = (dividend.len() + 1).saturating_sub(divisor.len());
+    let mut rest = dividend.to_vec();
+    let mut quotient = Vec::with_capacity(length);
+    for i in 0..length {
+        let (factor, left) = rest[i].div_rem(leading);
+        if !left.is_zero() {
+            return None;
+        }
+        if !factor.is_zero() {
+            for (value, d) in rest[i..].iter_mut().zip(divisor) {
+                *value -= d * &factor;
+            }
+        }
+        quotient.push(factor);
+    }
+    rest.iter().all(Zero::is_zero).then_some(quotient)
 }
 
 impl Mul for &Laurent {
@@ -156,14 +179,17 @@ impl Mul for &Laurent {
         if self.is_zero() || other.is_zero() {
             return Laurent::new(0, Vec::new());
         }
-        let length = self.coefficients.len() + other.coefficients.len() - 1;
-        let mut product = vec![Rational::zero(); length];
-        for (i, a) in self.coefficients.iter().enumerate().filter(|(_, a)| !a.is_zero()) {
-            for (j, b) in other.coefficients.iter().enumerate().filter(|(_, b)| !b.is_zero()) {
-                product[i + j] += a * b;
+        let ((a, over), (b, under)) =
+            (over_common(self.coefficients.iter()), over_common(other.coefficients.iter()));
+        let mut product = vec![BigInt::zero(); a.len() + b.len() - 1];
+        for (i, a) in a.iter().enumerate().filter(|(_, a)| !a.is_zero()) {
+            for (sum, b) in product[i..].iter_mut().zip(&b) {
+                *sum += a * b;
             }
         }
-        Laurent::new(self.lowest + other.lowest, product)
+        let common = over * under;
+        let coefficients = product.into_iter().map(|c| Rational::new(c, common.clone()));
+        Laurent::new(self.lowest + other.lowest, coefficients.collect())
     }
 }
 

@@ -1,8 +1,9 @@
 //! Exact rational numbers as masks and analyses use them.
 
 use num_bigint::BigInt;
+use num_integer::Integer as _;
 use num_rational::BigRational;
-use num_traits::{ToPrimitive, Zero};
+use num_traits::{One, ToPrimitive, Zero};
 
 use crate::base::{Error, ErrorKind, Fraction, Result};
 
@@ -22,6 +23,19 @@ pub(crate) const MOST_BITS: u64 = 4096;
 /// If `den` is 0.
 pub fn ratio(num: i64, den: i64) -> Rational {
     Rational::new(num.into(), den.into())
+}
+
+/// Numbers as integers over the least common denominator, which is the second result.
+pub(crate) fn over_common<'a>(
+    list: impl Iterator<Item = &'a Rational> + Clone,
+) -> (Vec<BigInt>, BigInt) {
+    let least = |d: BigInt, c: &Rational| {
+        // Much cheaper than looking for common factors.
+        if (&d % c.denom()).is_zero() { d } else { d.lcm(c.denom()) }
+    };
+    let common = list.clone().fold(BigInt::one(), least);
+    let whole = list.map(|c| c.numer() * (&common / c.denom())).collect();
+    (whole, common)
 }
 
 /// A parameter as a rational.

@@ -1,6 +1,6 @@
 //! Masks as split and passes.
 
-use carvel::curve::{CurveSplit, Factors, Mask};
+use carvel::curve::{CurveSplit, Factors, Laurent, Mask};
 use carvel::{ErrorKind, Fraction, Scheme};
 
 use crate::support::{list, named, schemes};
@@ -47,9 +47,9 @@ fn factors_multiply_to_the_mask() {
             let t = carvel::curve::rational::from_fraction(*t);
             let a = (list("1")[0].clone() - t) / list("2")[0].clone();
             let outer = &a / list("2")[0].clone();
-            carvel::curve::Laurent::new(-1, vec![outer.clone(), list("1")[0].clone() - a, outer])
+            Laurent::new(-1, vec![outer.clone(), list("1")[0].clone() - a, outer])
         };
-        let start = carvel::curve::Laurent::new(0, list(start));
+        let start = Laurent::new(0, list(start));
         let product = factors.passes.iter().fold(start, |product, t| &product * &filter(t));
         assert_eq!(product.coefficients(), mask.coefficients(), "{}", scheme.name);
     }
@@ -70,4 +70,20 @@ fn what_does_not_factor_is_refused_with_the_reason() {
     refused(&named("de-rham"), "[1,3,3,1]/4 is no factor");
     refused(&named("deslauriers-dubuc:3"), "2 of its 4 passes are not rational");
     refused(&"1/3,1/3,1/3,1/3,1/3,1/3".parse().unwrap(), "is no factor");
+    refused(&named("deslauriers-dubuc:64"), "it would take 126, schemes have 64 at most");
+}
+
+#[test]
+fn as_many_passes_as_a_scheme_has() {
+    let smoothed = |passes: usize| {
+        let start = Laurent::new(0, list("1/4 3/4 3/4 1/4"));
+        let filter = Laurent::new(-1, list("1/4 1/2 1/4"));
+        let symbol = (0..passes).fold(start, |product, _| &product * &filter);
+        Mask::new(2, 0, symbol.coefficients().to_vec()).unwrap()
+    };
+    let most = Factors::of(&smoothed(64)).expect("factors");
+    assert_eq!(most.passes, vec![fraction("0"); 64]);
+    assert!(Scheme::dual(&most.passes).is_ok());
+    refused(&smoothed(65), "it would take 65");
+    assert!(Scheme::dual(&[fraction("0"); 65]).is_err());
 }

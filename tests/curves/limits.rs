@@ -178,6 +178,20 @@ fn analyses_report_and_stop() {
     assert!(seen.len() == 3 && seen.is_sorted(), "{seen:?}");
 }
 
+/// One of the longest of the catalogue, cancelled in the middle, ends long before it would.
+#[test]
+fn hard_analyses_can_be_cancelled() {
+    let mask = named("deslauriers-dubuc:64");
+    let context = serial();
+    let found = std::thread::scope(|scope| {
+        let found = scope.spawn(|| Analysis::of(&context, &mask, Effort::default()));
+        std::thread::sleep(std::time::Duration::from_millis(50));
+        context.cancel();
+        found.join().expect("no panic")
+    });
+    is(found, ErrorKind::Cancelled);
+}
+
 /// Long masks get bounds that are far apart but right, and no overflow on the way.
 #[test]
 fn long_and_large_masks_are_answered() {

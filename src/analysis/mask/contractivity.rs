@@ -6,15 +6,18 @@
 //! theorem 3.4). The pair of L and norm is the certificate.
 
 use num_bigint::BigInt;
-use num_integer::Integer as _;
 use num_traits::{One, Signed, Zero, pow};
 
 use super::sum_rules::difference_symbol;
 use crate::base::{Context, Result};
+use crate::curve::rational::over_common;
 use crate::curve::{Laurent, Mask, Rational};
 
 /// The largest product that is looked at, in coefficients.
 const LARGEST_PRODUCT: usize = 1 << 18;
+
+/// Multiplications of words for all powers of one order: about a second.
+pub(super) const MOST_WORK: u64 = 1 << 28;
 
 /// That the scheme is C^`continuity`: ‖S_bᴸ‖∞ = `norm` < 1, for the first such L.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -29,7 +32,7 @@ pub struct Contractivity {
 
 /// The norms ‖S_bᴸ‖∞ of a symbol for L = 1, 2, …
 ///
-/// They end where the product has more than 2¹⁸ coefficients.
+/// They end where the product has more than 2¹⁸ coefficients, or would take too long.
 pub struct PowerNorms {
     arity: usize,
     /// Numerators of b over `denominator`.
@@ -38,17 +41,28 @@ pub struct PowerNorms {
     /// Numerators of the product so far, over `denominator` to the power `power`.
     product: Vec<BigInt>,
     power: u32,
+    /// Multiplications of words that are left.
+    work: u64,
 }
 
 impl PowerNorms {
     /// The norms of the scheme of a symbol.
     pub fn new(arity: usize, symbol: &Laurent) -> Self {
         let coefficients = symbol.coefficients();
-        let lcm = |d: BigInt, c: &Rational| d.lcm(c.denom());
-        let denominator = coefficients.iter().fold(BigInt::one(), lcm);
-        let whole = |c: &Rational| c.numer() * (&denominator / c.denom());
-        let symbol = coefficients.iter().map(whole).collect();
-        Self { arity, symbol, denominator, product: vec![BigInt::one()], power: 0 }
+        let (symbol, denominator) = over_common(coefficients.iter());
+        Self { arity, symbol, denominator, product: vec![BigInt::one()], power: 0, work: u64::MAX }
+    }
+
+    /// With a limit for multiplications of words in all.
+    #[must_use]
+    pub(super) fn within(self, work: u64) -> Self {
+        Self { work, ..self }
+    }
+
+    /// Multiplications of words that the next product takes.
+    fn next_work(&self) -> u64 {
+        let words = |list: &[BigInt]| list.iter().map(|x| x.bits() / 64 + 1).sum::<u64>();
+        words(&self.symbol).saturating_mul(words(&self.product))
     }
 
     /// Multiplies the product by b(z^(m^power)); false if that is too long.
@@ -59,6 +73,10 @@ impl PowerNorms {
         let (Some(stride), Some(length)) = (stride, length) else { return false };
         if length > LARGEST_PRODUCT || self.symbol.is_empty() {
             return false;
+        }
+        match self.work.checked_sub(self.next_work()) {
+            Some(left) => self.work = left,
+            None => return false,
         }
         let mut product = vec![BigInt::zero(); length];
         for (i, b) in self.symbol.iter().enumerate().filter(|(_, b)| !b.is_zero()) {
@@ -92,7 +110,8 @@ impl Iterator for PowerNorms {
 /// Looks for the certificate of C^k among the powers up to `longest`; `None` if there is
 /// none.
 ///
-/// O(length of the mask · m^L) operations on integers of O(L) words.
+/// O(length of the mask · m^L) operations on integers of O(L) words, 2²⁸ multiplications of words at
+/// most.
 ///
 /// # Errors
 /// [`crate::ErrorKind::Cancelled`].
@@ -102,8 +121,20 @@ pub fn contractivity(
     k: usize,
     longest: u32,
 ) -> Result<Option<Contractivity>> {
+    within(context, mask, k, longest, MOST_WORK)
+}
+
+/// The same with another limit for multiplications of words.
+pub(super) fn within(
+    context: &Context,
+    mask: &Mask,
+    k: usize,
+    longest: u32,
+    work: u64,
+) -> Result<Option<Contractivity>> {
     let Some(symbol) = difference_symbol(mask, k) else { return Ok(None) };
-    for (power, norm) in (1..=longest).zip(PowerNorms::new(mask.arity(), &symbol)) {
+    let norms = PowerNorms::new(mask.arity(), &symbol).within(work);
+    for (power, norm) in (1..=longest).zip(norms) {
         if norm < Rational::one() {
             return Ok(Some(Contractivity { continuity: k, power, norm }));
         }

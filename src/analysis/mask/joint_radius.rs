@@ -185,7 +185,8 @@ impl<'a> Search<'a> {
             context.check_cancelled()?;
             let growth = self.growth() * (1.0 - below);
             let radius = from_f64(libm::pow(growth, length as f64));
-            if radius.is_some_and(|radius| has_root_beyond(&polynomial, &(radius * &scale))) {
+            let Some(radius) = radius.map(|radius| radius * &scale) else { continue };
+            if has_root_beyond(context, &polynomial, &radius)? {
                 // The power is rounded, by less than what is taken off here.
                 return Ok(growth * (1.0 - 1e-14));
             }
@@ -270,7 +271,7 @@ pub(super) fn side_of(
     }
     let search = Search::new(context, &matrices)?;
     let Some((polynomial, _, length)) = search.leading_product() else { return Ok(Side::Open) };
-    if has_root_beyond(&polynomial, &num_traits::pow(threshold.clone(), length)) {
+    if has_root_beyond(context, &polynomial, &num_traits::pow(threshold.clone(), length))? {
         return Ok(Side::AtLeast);
     }
     // Relative to the largest entry, rounded down.

@@ -2,7 +2,7 @@
 
 use num_traits::{One, pow};
 
-use super::contractivity::{Contractivity, contractivity};
+use super::contractivity::{Contractivity, MOST_WORK, within};
 use super::joint_radius::{Certificate, JointRadius};
 use super::reproduction::Degrees;
 use super::sum_rules::Smoothing;
@@ -160,8 +160,11 @@ fn best_contractivity(
 ) -> Result<Option<Contractivity>> {
     // Powers of b = m^k·a/σ^(k+1) contract some time exactly if k is below the exponent.
     let Some(most) = below(holder.high) else { return Ok(None) };
-    for k in (0..=most.min(smoothing.factors.saturating_sub(1))).rev() {
-        if let Some(proof) = contractivity(context, mask, k, effort.longest_power)? {
+    let most = most.min(smoothing.factors.saturating_sub(1));
+    // All orders together take no more than some times what one may.
+    let work = MOST_WORK.min(4 * MOST_WORK / (most as u64 + 1));
+    for k in (0..=most).rev() {
+        if let Some(proof) = within(context, mask, k, effort.longest_power, work)? {
             return Ok(Some(proof));
         }
     }

@@ -1,10 +1,11 @@
 //! Spectral radii: estimated in doubles, bounded from below exactly.
 
 use num_bigint::BigInt;
-use num_integer::Integer as _;
 use num_traits::{One, Signed, Zero, pow};
 
+use crate::base::{Context, Result};
 use crate::curve::Rational;
+use crate::curve::rational::over_common;
 
 /// A square matrix of doubles, row by row.
 #[derive(Debug, Clone, PartialEq)]
@@ -76,10 +77,8 @@ pub(super) struct Exact {
 
 impl Exact {
     pub fn new(rows: &[Vec<Rational>]) -> Self {
-        let lcm = |d: BigInt, c: &Rational| d.lcm(c.denom());
-        let denominator = rows.iter().flatten().fold(BigInt::one(), lcm);
-        let whole = |c: &Rational| c.numer() * (&denominator / c.denom());
-        let rows = rows.iter().map(|row| row.iter().map(whole).collect()).collect();
+        let (whole, denominator) = over_common(rows.iter().flatten());
+        let rows = whole.chunks(rows.len().max(1)).map(<[BigInt]>::to_vec).collect();
         Self { rows, denominator }
     }
 
@@ -92,13 +91,12 @@ impl Exact {
     pub fn characteristic(&self) -> Vec<Rational> {
         let n = self.rows.len();
         let mut coefficients = vec![BigInt::one()];
-        let mut inner = vec![vec![BigInt::zero(); n]; n];
+        let mut product = vec![vec![BigInt::zero(); n]; n];
         for k in 1..=n {
             let last = coefficients[k - 1].clone();
-            inner = multiply(&self.rows, &inner);
-            inner.iter_mut().enumerate().for_each(|(i, row)| row[i] += &last);
-            let trace: BigInt =
-                multiply(&self.rows, &inner).iter().enumerate().map(|(i, r)| &r[i]).sum();
+            product.iter_mut().enumerate().for_each(|(i, row)| row[i] += &last);
+            product = multiply(&self.rows, &product);
+            let trace: BigInt = product.iter().enumerate().map(|(i, row)| &row[i]).sum();
             coefficients.push(-trace / BigInt::from(k));
         }
         let over = |(k, c): (usize, BigInt)| Rational::new(c, pow(self.denominator.clone(), k));
@@ -119,24 +117,49 @@ fn multiply(a: &[Vec<BigInt>], b: &[Vec<BigInt>]) -> Vec<Vec<BigInt>> {
     a.iter().map(row).collect()
 }
 
-/// True if some root of a polynomial, given by ascending powers, has absolute value `radius`
-/// or more; exact (Schur and Cohn, 1917–1922).
-pub(super) fn has_root_beyond(polynomial: &[Rational], radius: &Rational) -> bool {
+/// The most bits of all coefficients together that the search for roots goes on with.
+const MOST_BITS: u64 = 1 << 18;
+
+/// True if some root of a polynomial, given by ascending powers, the highest with the factor 1,
+/// is proved to have absolute value `radius` or more. Exact, and decided unless coefficients become
+/// very long.
+///
+/// A polynomial that is not positive at `radius`, or at −`radius` has not the sign that it has far
+/// out, has a real root beyond. Otherwise Schur and Cohn (1917–1922).
+///
+/// # Errors
+/// [`crate::ErrorKind::Cancelled`].
+pub(super) fn has_root_beyond(
+    context: &Context,
+    polynomial: &[Rational],
+    radius: &Rational,
+) -> Result<bool> {
     let powers = std::iter::successors(Some(Rational::one()), |power| Some(power * radius));
     let mut rest: Vec<_> = polynomial.iter().zip(powers).map(|(c, power)| c * power).collect();
+    let there: Rational = rest.iter().sum();
+    let alternating = |(k, c): (usize, &Rational)| if k % 2 == 0 { c.clone() } else { -c };
+    let opposite: Rational = rest.iter().rev().enumerate().map(alternating).sum();
+    if !there.is_positive() || !opposite.is_positive() {
+        return Ok(rest.len() > 1);
+    }
     while rest.len() > 1 {
+        context.check_cancelled()?;
         let last = rest[rest.len() - 1].clone();
         for c in &mut rest {
             *c /= &last;
         }
         let first = rest[0].clone();
         if first.abs() >= Rational::one() {
-            return true;
+            return Ok(true);
         }
         let n = rest.len() - 1;
         rest = (1..=n).map(|k| &rest[k] - &first * &rest[n - k]).collect();
+        let bits: u64 = rest.iter().map(|c| c.numer().bits() + c.denom().bits()).sum();
+        if bits > MOST_BITS {
+            return Ok(false);
+        }
     }
-    false
+    Ok(false)
 }
 
 #[cfg(test)]
@@ -148,13 +171,24 @@ mod tests {
     fn roots_beyond_a_circle_are_seen() {
         // x² + 1/4: ±i/2.
         let polynomial = [ratio(1, 4), ratio(0, 1), ratio(1, 1)];
-        assert!(has_root_beyond(&polynomial, &ratio(1, 2)));
-        assert!(has_root_beyond(&polynomial, &ratio(499, 1000)));
-        assert!(!has_root_beyond(&polynomial, &ratio(501, 1000)));
-        // (x − 1/2)(x − 2).
-        let polynomial = [ratio(1, 1), ratio(-5, 2), ratio(1, 1)];
-        assert!(has_root_beyond(&polynomial, &ratio(2, 1)));
-        assert!(!has_root_beyond(&polynomial, &ratio(201, 100)));
+        let beyond = |polynomial: &[Rational], p: i64, q: i64| {
+            has_root_beyond(&Context::serial(), polynomial, &ratio(p, q)).unwrap()
+        };
+        assert!(beyond(&polynomial, 1, 2));
+        assert!(beyond(&polynomial, 499, 1000));
+        assert!(!beyond(&polynomial, 501, 1000));
+        // (x − 1/2)(x − 2), and its image.
+        for sign in [1, -1] {
+            let polynomial = [ratio(1, 1), ratio(-5 * sign, 2), ratio(1, 1)];
+            assert!(beyond(&polynomial, 2, 1) && beyond(&polynomial, 1, 1));
+            assert!(!beyond(&polynomial, 201, 100));
+            // Both roots are beyond, where signs say nothing.
+            assert!(beyond(&polynomial, 1, 4));
+        }
+        // (x − 1)³, and a number, which has no roots.
+        let triple = [ratio(-1, 1), ratio(3, 1), ratio(-3, 1), ratio(1, 1)];
+        assert!(beyond(&triple, 1, 1) && !beyond(&triple, 1001, 1000));
+        assert!(!beyond(&[ratio(1, 1)], 1, 1));
     }
 
     #[test]
