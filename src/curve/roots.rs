@@ -69,7 +69,7 @@ fn trimmed<T: Zero>(mut polynomial: Vec<T>) -> Vec<T> {
 
 /// The primes below [`PRIMES_BELOW`], the largest first.
 fn primes() -> impl Iterator<Item = u64> {
-    let is_prime = |n: &u64| (2..).take_while(|d| d * d <= *n).all(|d| n % d != 0);
+    let is_prime = |&n: &u64| (2..=n.isqrt()).all(|d| !n.is_multiple_of(d));
     (3..PRIMES_BELOW).rev().filter(is_prime)
 }
 
