@@ -109,7 +109,6 @@
  *   carvel_mask       a scheme of polygons, and what is proved of it
  *   carvel_grid_mask  a scheme of grids, by any mask of two directions
  *   (catalogue)       the schemes of polygons that have names
- *   (analysis)        how smooth a scheme's surfaces are around a feature
  *
  * Each is made by a _create function, which hands it over to the caller, and
  * given back by its _destroy function; NULL may be destroyed. An object may be
@@ -2115,7 +2114,7 @@ CARVEL_API carvel_status carvel_mask_analyse(const carvel_mask *mask,
  * derivative: its order, 0 for the function itself.
  * Errors: NULL_POINTER, MISALIGNED, OVERLAP, BUFFER_TOO_SMALL; UNSUPPORTED where there is no
  * mask, no limit or no such derivative; TOO_LARGE for more than 2^20 samples; OVERFLOW for one
- * beyond doubles; CANCELLED. */
+ * beyond doubles; MEMORY_CEILING; CANCELLED. */
 CARVEL_API carvel_status carvel_mask_sample_limit(const carvel_mask *mask,
                                                   const carvel_context *context,
                                                   uint32_t derivative, uint32_t levels,

@@ -132,13 +132,19 @@ impl GridMask {
 
     /// Weights and shifts in both directions of the rule of two residues.
     fn taps(&self, e: usize, f: usize) -> impl Iterator<Item = (&Rational, [i64; 2])> {
-        let [m, n] = self.arity.map(|m| m as i64);
-        let terms = self.coefficients.iter().enumerate().filter(|(_, w)| !w.is_zero());
-        terms.filter_map(move |(at, w)| {
-            let row = e as i64 - (self.offset[0] + (at / self.columns) as i64);
-            let column = f as i64 - (self.offset[1] + (at % self.columns) as i64);
-            let meets = row.rem_euclid(m) == 0 && column.rem_euclid(n) == 0;
-            meets.then_some((w, [row.div_euclid(m), column.div_euclid(n)]))
+        let first = |k: usize, residue: usize| {
+            (residue as i64 - self.offset[k]).rem_euclid(self.arity[k] as i64) as usize
+        };
+        let [rows, columns] = [self.coefficients.len() / self.columns, self.columns];
+        let places = (first(0, e)..rows).step_by(self.arity[0]).flat_map(move |row| {
+            (first(1, f)..columns).step_by(self.arity[1]).map(move |column| [row, column])
+        });
+        let shift = move |k: usize, residue: usize, at: usize| {
+            (residue as i64 - self.offset[k] - at as i64).div_euclid(self.arity[k] as i64)
+        };
+        places.filter_map(move |[row, column]| {
+            let weight = &self.coefficients[row * columns + column];
+            (!weight.is_zero()).then(|| (weight, [shift(0, e, row), shift(1, f, column)]))
         })
     }
 

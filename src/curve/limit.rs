@@ -13,7 +13,7 @@ use super::ends::Extent;
 use super::laurent::Laurent;
 use super::linear;
 use super::mask::{Mask, out_of_range};
-use super::rational::{Rational, ratio};
+use super::rational::{Rational, over_common, ratio};
 use super::refine::{Polygon, check_overflow, check_points, check_total};
 use super::rules::Rules;
 use super::step::apply;
@@ -159,7 +159,8 @@ fn fixed_vector(context: &Context, mut matrix: Matrix) -> Result<Vec<Rational>> 
 /// and the values from there on.
 ///
 /// # Errors
-/// As [`limit_stencil`]; [`ErrorKind::TooLarge`] for more than 2²⁰ values.
+/// As [`limit_stencil`]; [`ErrorKind::TooLarge`] for more than 2²⁰ values;
+/// [`ErrorKind::MemoryCeiling`].
 pub fn sample_limit(context: &Context, mask: &Mask, levels: u32) -> Result<(i64, Vec<Rational>)> {
     sample_derivative(context, mask, 0, levels)
 }
@@ -184,6 +185,7 @@ pub fn sample_derivative(
     }
     let (difference, psi) = derived(mask, derivative)?;
     let mut values = values_at(context, m, &psi, &Rational::zero())?;
+    context.check_memory(bytes_of(count.unwrap_or(0) as u64, levels, [&psi, &values]))?;
     for level in 0..levels {
         context.check_cancelled()?;
         // φ(i/mᵏ⁺¹) = Σ aₗ φ(i/mᵏ − l): the product with the mask spread out to mᵏ.
@@ -191,6 +193,15 @@ pub fn sample_derivative(
     }
     values = &spread(&difference, m.pow(levels)) * &values;
     Ok((values.lowest(), values.coefficients().to_vec()))
+}
+
+/// About the memory of so many values after a number of products with a mask: terms as integers
+/// and as fractions, with one factor in their denominators from each.
+fn bytes_of(count: u64, levels: u32, [mask, values]: [&Laurent; 2]) -> u64 {
+    let denominator = |of: &Laurent| over_common(of.coefficients().iter()).1.bits();
+    let bits = denominator(mask).saturating_mul(u64::from(levels)) + denominator(values);
+    let number = size_of::<Rational>() as u64 + bits / 4;
+    count.saturating_mul(2 * number)
 }
 
 /// a(z^n).

@@ -202,6 +202,19 @@ fn a_tensor_product_is_a_bivariate_mask() {
     }
 }
 
+/// 4096 rules of 64,009 coefficients, which each of them would not be looked for among all.
+#[test]
+fn a_mask_of_many_rules_takes_no_longer_than_its_coefficients() {
+    let mask = named("b-spline:3,64");
+    let grid =
+        Grid::<f64> { points: vec![1.0; 64], columns: 8, width: 1, ends: [Ends::Dropped; 2] };
+    let tensor = GridMask::tensor(&mask, &mask).expect("a grid mask");
+    let refined = grid.refine_by(&Context::serial(), &tensor, 1).expect("points");
+    assert!(refined.points.iter().all(|x| (x - 1.0).abs() < 1e-14));
+    let predicted = tensor.predict([Ends::Dropped; 2], [8, 8], 1).expect("counts");
+    assert_eq!(predicted, [refined.columns; 2]);
+}
+
 #[test]
 fn rows_and_columns_are_curves() {
     let (a, b) = (named("chaikin"), named("four-point"));

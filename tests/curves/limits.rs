@@ -147,6 +147,9 @@ fn questions_without_an_answer() {
     is(limit_stencil(&serial(), &named("de-rham"), &q("0"), 1), ErrorKind::Unsupported);
     is(limit_stencil(&serial(), &paper, &q("1/1009"), 0), ErrorKind::TooLarge);
     is(sample_limit(&serial(), &paper, 40), ErrorKind::TooLarge);
+    let tight = Context::builder().threads(1).memory_ceiling(1 << 20).build().expect("a context");
+    assert!(sample_limit(&tight, &paper, 9).is_ok());
+    is(sample_limit(&tight, &paper, 14), ErrorKind::MemoryCeiling);
     // The scheme that doubles every point has no continuous limit.
     let doubling = Mask::new(2, 0, vec![q("1"), q("1")]).expect("a mask");
     is(limit_stencil(&serial(), &doubling, &q("0"), 0), ErrorKind::Unsupported);
