@@ -1819,7 +1819,8 @@ CARVEL_API void carvel_search_destroy(carvel_search *search);
 
 /* For each of the points, three numbers each, the nearest point of the surface: `out` has room for
  * as many. The same at any number of threads. No other point of the surface is nearer by more
- * than 1e-9 of the distance, or 1e-12 of the largest coordinate.
+ * than 1e-9 of the distance, or 1e-12 of the largest coordinate, unless the surface has no area,
+ * where a query that takes long becomes less exact (docs/search.md).
  * reach: how far away it may be, 0 to infinity.
  * Errors: NULL_POINTER, MISALIGNED, OVERLAP, TOO_LARGE; NOT_FINITE and PARAMETER_OUT_OF_RANGE for
  * a point, whose number the message has, and for a reach; MEMORY_CEILING, OUT_OF_RESOURCES,
@@ -1831,7 +1832,8 @@ CARVEL_API carvel_status carvel_search_closest(const carvel_search *search,
                                                carvel_error *error);
 
 /* For each of the rays the first point of the surface on it; `out` has room for as many. The
- * surface has two sides. Points within 1e-12 of the largest coordinate from a ray are on it.
+ * surface has two sides. Points within 1e-12 of the largest coordinate from a ray are on it, unless
+ * the surface has no area, as above.
  * Errors: as carvel_search_closest, for rays. */
 CARVEL_API carvel_status carvel_search_intersect(const carvel_search *search,
                                                  const carvel_context *context,

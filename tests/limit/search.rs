@@ -554,6 +554,35 @@ fn degenerate_surfaces_have_answers() {
     assert!(found.distance > 0.1 && found.sample.face != 0, "{found:?}");
 }
 
+/// Where a surface has no area the places that have one point are curves in it.
+#[test]
+fn surfaces_without_area_have_answers() {
+    for (scheme, expected) in [(Scheme::catmull_clark(), EXACT), (three_point(), 1e-9)] {
+        let mut grid = bases::grid(4, 3);
+        grid.positions.iter_mut().for_each(|p| *p = [p[0], 0.0, 0.0]);
+        let case = Case::new("line", Shape::new(&grid), &scheme);
+        let [low, high] = [f64::min, f64::max]
+            .map(|pick| grid.positions.iter().map(|p| p[0]).reduce(pick).unwrap());
+        let x = 0.4 * low + 0.6 * high;
+        let found = case.closest(&[[x, 0.3, -0.4], [x, 0.0, 0.0]]);
+        assert!((found[0].distance - 0.5).abs() < expected, "{found:?}");
+        assert!(found[1].distance < expected, "{found:?}");
+        let across = Ray::new([x, -1.0, 0.0], [0.0, 1.0, 0.0]);
+        let beside = Ray::new([x, -1.0, 0.1], [0.0, 1.0, 0.0]);
+        let within = Ray::new([low - 1.0, 0.0, 0.0], [1.0, 0.0, 0.0]);
+        let hits = case.hits(&[across, beside, within]);
+        for hit in [hits[0], hits[2]] {
+            assert!((hit.unwrap().t - 1.0).abs() < expected, "{hits:?}");
+        }
+        assert_eq!(hits[1], None);
+        if expected == EXACT {
+            // No bound tells its places apart: tolerances grow until it ends.
+            let hit = case.hits(&[Ray::new([x - 1.0, -1.0, 0.0], [1.0, 1.0, 0.0])])[0].unwrap();
+            assert!((hit.t - 1.0).abs() < 1e-5, "{hit:?}");
+        }
+    }
+}
+
 fn kind<T: std::fmt::Debug>(result: carvel::Result<T>, text: &str) -> ErrorKind {
     let error = result.unwrap_err();
     assert!(error.to_string().contains(text), "{error}");

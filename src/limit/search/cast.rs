@@ -18,6 +18,9 @@ use glam::{DMat2, DVec2, DVec3};
 const SAFETY: f64 = 2.0;
 /// How far from the unit matrix J⁻¹J′ may be.
 const UNLIKE: f64 = 0.2;
+/// How much nearer a meeting is looked for, in units of what counts as met: a few times what is
+/// taken for a point.
+const ALIKE: f64 = 8.0;
 /// Newton steps at most.
 const STEPS: u32 = 40;
 
@@ -93,22 +96,19 @@ struct Cast<'a> {
 ///
 /// # Errors
 /// As [`super::Search::intersect`].
-pub(super) fn cast(
-    inside: Inside<'_>,
-    line: Line,
-    queue: &mut Queue,
-    visits: &mut Visits,
-) -> Result<Option<Meeting>> {
-    let mut query = Cast { inside, line, best: None };
+pub(super) fn cast(inside: Inside<'_>, line: Line, queue: &mut Queue) -> Result<Option<Meeting>> {
+    let (mut query, mut visits) = (Cast { inside, line, best: None }, Visits::default());
     queue.clear();
     if let Some(bound) = inside.tree.0.first().and_then(|root| line.enters(&root.bounds)) {
         queue.push(bound, Place::Branch(0))?;
     }
     while let Some((bound, place)) = queue.pop() {
-        if bound > query.limit() {
+        if bound > query.farthest() {
             break;
         }
-        visits.add(inside.context)?;
+        if visits.add(inside.context)? {
+            query.line.tolerance *= 2.0;
+        }
         match place {
             Place::Branch(branch) => query.branch(branch, bound, queue)?,
             Place::First(part) => query.visit(&inside.parts[part as usize], queue)?,
@@ -132,13 +132,19 @@ impl Cast<'_> {
         self.best.as_ref().map_or(self.line.range[1], |best| best.z)
     }
 
+    /// What is farther along the ray need not be looked at.
+    fn farthest(&self) -> f64 {
+        let alike = |best: &Meeting| best.z - ALIKE * self.line.tolerance;
+        self.best.as_ref().map_or(self.line.range[1], alike)
+    }
+
     fn branch(&self, branch: u32, bound: f64, queue: &mut Queue) -> Result<()> {
         for child in self.inside.children(branch) {
             let enters = match child {
                 Place::Branch(i) => self.line.enters(&self.inside.tree.0[i as usize].bounds),
                 _ => Some(bound),
             };
-            if let Some(bound) = enters.filter(|&bound| bound <= self.limit()) {
+            if let Some(bound) = enters.filter(|&bound| bound <= self.farthest()) {
                 queue.push(bound, child)?;
             }
         }
@@ -156,7 +162,7 @@ impl Cast<'_> {
         (low, high) = (low - slack, high + slack);
         let meets = low.truncate().max_element() <= 0.0 && high.truncate().min_element() >= 0.0;
         let [first, _] = self.line.range;
-        (meets && high.z >= first && low.z <= self.limit()).then_some(Seen { low, high })
+        (meets && high.z >= first && low.z <= self.farthest()).then_some(Seen { low, high })
     }
 
     fn visit(&mut self, part: &Part, queue: &mut Queue) -> Result<()> {

@@ -42,6 +42,9 @@ const CUTS: u32 = 2;
 const SHARE: usize = 32;
 /// Visits after which a query asks whether it is to stop.
 const PAUSE: u64 = 256;
+/// Visits of a query that are exact; then, after every `STEP` more, it is less so.
+const PATIENCE: u64 = 1 << 15;
+const STEP: u64 = 1 << 10;
 /// The largest coordinates of queries in units of the largest of a control point.
 const FARTHEST: f64 = 1e100;
 
@@ -100,6 +103,10 @@ pub struct Hit {
 /// through 25 points and how far it bends; where steps have negative weights, features are, too.
 /// Derivatives of such parts are taken twice as uncertain. That is a test and no proof.
 ///
+/// A query that has looked at 32,768 parts, many times what is usual, doubles its tolerances after
+/// every 1024 more, and so ends: surfaces without area have whole curves of places with the same
+/// point.
+///
 /// # Example
 /// ```
 /// use carvel::limit::{Ray, Search, Surface};
@@ -149,14 +156,18 @@ impl Inside<'_> {
     }
 }
 
-/// Counts what a thread looks at.
+/// Counts what a query looks at.
 #[derive(Debug, Default)]
 struct Visits(u64);
 
 impl Visits {
-    fn add(&mut self, context: &Context) -> Result<()> {
+    /// Counts one; true where tolerances are to be doubled, so that every query ends.
+    fn add(&mut self, context: &Context) -> Result<bool> {
         self.0 += 1;
-        if self.0.is_multiple_of(PAUSE) { context.check_cancelled() } else { Ok(()) }
+        if self.0.is_multiple_of(PAUSE) {
+            context.check_cancelled()?;
+        }
+        Ok(self.0 > PATIENCE && self.0.is_multiple_of(STEP))
     }
 }
 
@@ -232,9 +243,9 @@ impl Search {
             return Err(Error::new(ErrorKind::ParameterOutOfRange, message));
         }
         let scaled_reach = libm::scalbn(reach, self.exponent);
-        let found = self.each(context, points, |inside, i, &point, queue, visits| {
+        let found = self.each(context, points, |inside, i, &point, queue| {
             let p = self.scaled("point", i, point)?;
-            nearest(inside, p, scaled_reach, queue, visits)
+            nearest(inside, p, scaled_reach, queue)
         })?;
         let places = |near: &Near| (near.root, near.at);
         self.finish(context, &found, places, out, |i, near, sample, point| {
@@ -252,7 +263,8 @@ impl Search {
     /// Points within 10⁻¹² to 4·10⁻¹² of the largest coordinate of a control point (and 10⁻¹⁵ of the
     /// origin's) from the ray are on it. So faces leave no gaps between them, and a ray that is tangent to the
     /// surface meets it, at a place that is uncertain by the square root of that. Where a ray
-    /// runs within the surface its first point there is found. Where bounds are proven
+    /// runs within the surface its first point there is found. A hit is the first but for others
+    /// nearer by less than 10⁻¹¹ of that. Where bounds are proven
     /// ([`Search`]) no hit is missed. The result does not depend on the number of threads.
     ///
     /// # Errors
@@ -269,9 +281,9 @@ impl Search {
         out: &mut [Option<Hit>],
     ) -> Result<()> {
         check_lengths("rays", rays.len(), out.len())?;
-        let found = self.each(context, rays, |inside, i, ray, queue, visits| {
+        let found = self.each(context, rays, |inside, i, ray, queue| {
             let scaled = self.line(i, ray)?;
-            cast(inside, scaled.line, queue, visits)
+            cast(inside, scaled.line, queue)
         })?;
         let places = |meeting: &Meeting| (meeting.root, meeting.at);
         self.finish(context, &found, places, out, |i, meeting, sample, point| {
@@ -286,19 +298,19 @@ impl Search {
         &self,
         context: &Context,
         queries: &[Q],
-        work: impl Fn(Inside<'_>, usize, &Q, &mut Queue, &mut Visits) -> Result<Option<F>> + Sync + Send,
+        work: impl Fn(Inside<'_>, usize, &Q, &mut Queue) -> Result<Option<F>> + Sync + Send,
     ) -> Result<Vec<Option<F>>> {
         context.report(0.0)?;
         let room = (queries.len() * size_of::<Option<F>>()) as u64;
         context.check_memory(room)?;
         let shares = memory::collect(queries.chunks(SHARE).enumerate())?;
         let found = context.map(shares, |(share, queries)| {
-            let (mut queue, mut visits) = (Queue::default(), Visits::default());
+            let mut queue = Queue::default();
             let Self { field, parts, tree, .. } = self;
             let inside = Inside { context, field, parts, tree, memory: &Memory::default() };
             let mut found = memory::reserved(queries.len())?;
             for (i, query) in (share * SHARE..).zip(queries) {
-                found.push(work(inside, i, query, &mut queue, &mut visits)?);
+                found.push(work(inside, i, query, &mut queue)?);
             }
             Ok::<_, Error>(found)
         })?;

@@ -33,6 +33,8 @@ struct Nearest<'a> {
     reach: f64,
     best: Option<Near>,
     absolute: f64,
+    /// What is given up beside, in a query that takes long.
+    given_up: f64,
 }
 
 /// The point of the surface nearest to p, if one is within reach.
@@ -44,10 +46,10 @@ pub(super) fn nearest(
     p: DVec3,
     reach: f64,
     queue: &mut Queue,
-    visits: &mut Visits,
 ) -> Result<Option<Near>> {
     let absolute = ABSOLUTE + 4.0 * f64::EPSILON * p.abs().max_element();
-    let mut query = Nearest { inside, p, reach, best: None, absolute };
+    let mut query = Nearest { inside, p, reach, best: None, absolute, given_up: 0.0 };
+    let mut visits = Visits::default();
     queue.clear();
     if let Some(root) = inside.tree.0.first() {
         queue.push(root.bounds.distance(p), Place::Branch(0))?;
@@ -56,7 +58,9 @@ pub(super) fn nearest(
         if bound > query.limit() {
             break;
         }
-        visits.add(inside.context)?;
+        if visits.add(inside.context)? {
+            query.given_up = 2.0 * query.given_up.max(absolute);
+        }
         match place {
             Place::Branch(branch) => query.branch(branch, queue)?,
             Place::First(part) => query.visit(&inside.parts[part as usize], queue)?,
@@ -73,8 +77,10 @@ impl Nearest<'_> {
     /// What is farther than this need not be looked at.
     fn limit(&self) -> f64 {
         match self.best {
-            Some(Near { distance, .. }) => distance - self.absolute.max(RELATIVE * distance),
-            None => self.reach,
+            Some(Near { distance, .. }) => {
+                distance - self.given_up - self.absolute.max(RELATIVE * distance)
+            }
+            None => self.reach - self.given_up,
         }
     }
 
