@@ -544,6 +544,14 @@ fn options_positions_and_limits_are_checked() {
     assert_eq!(kind(&serial, &good, &most(100)), ErrorKind::TooLarge);
     let small = Context::builder().memory_ceiling(100_000).build().unwrap();
     assert_eq!(kind(&small, &good, &chord(1e-3)), ErrorKind::MemoryCeiling);
+    // No cell is fine enough before there are millions: those still to be looked at count as well.
+    let hard = shape.surface(&three_point());
+    let fine = TessellateOptions { triangles: 1000, ..chord(1e-11) };
+    let kind_of = |context: &Context, options: &TessellateOptions| {
+        tessellate(context, &hard, &good, options).expect_err("an error").kind()
+    };
+    assert_eq!(kind_of(&serial, &fine), ErrorKind::TooLarge);
+    assert_eq!(kind_of(&small, &chord(1e-11)), ErrorKind::MemoryCeiling);
     serial.cancel();
     assert_eq!(kind(&serial, &good, &chord(0.1)), ErrorKind::Cancelled);
     let stopped = Context::builder().progress(|done| done < 0.5).build().unwrap();

@@ -94,7 +94,9 @@ pub(super) fn split(
     let mut done = 0;
     while !open.is_empty() {
         let mut later = Vec::new();
-        for batch in open.chunks(BATCH) {
+        for (i, batch) in open.chunks(BATCH).enumerate() {
+            // Each of those that are open becomes one cell at least.
+            splitter.check_open(open.len() - i * BATCH + later.len())?;
             for found in splitter.batch(positions, batch)? {
                 for (root, cell) in found.leaves {
                     memory::extend(&mut leaves.cells[root as usize], [cell])?;
@@ -140,6 +142,15 @@ impl Splitter<'_> {
     fn piece(&self, root: u32, cell: Cell) -> Result<Piece> {
         let side = f64::from(cell.side.abs()) / f64::from(UNIT);
         self.surface.piece(&self.roots[root as usize].sample(cell.inside()), side)
+    }
+
+    /// Refuses cells that would be too many with those that are still to be looked at.
+    fn check_open(&self, open: usize) -> Result<()> {
+        let cells = self.leaves.load(Ordering::Relaxed) + open as u64;
+        if self.is_ceiling_lower {
+            return self.context.check_memory(cells.saturating_mul(self.goal.bytes));
+        }
+        if cells > self.goal.cells { Err(too_many()) } else { Ok(()) }
     }
 
     /// Looks at some cells.
