@@ -93,7 +93,8 @@ impl Mask {
 
     /// Reads coefficients separated by commas, such as `1/4,3/4,3/4,1/4` or, over one
     /// denominator, `[1,3,3,1]/4`; without an offset the mask is centred. If all but the last are
-    /// integers, which alone are no mask, its denominator is that of all: `1,3,3,1/4`.
+    /// integers, which alone are no mask, its denominator, as written, is that of all: `1,3,3,1/4`,
+    /// `2,6,6,2/8`.
     ///
     /// # Errors
     /// As [`rational::parse`] for a coefficient that is no number; as [`Mask::new`].
@@ -114,7 +115,9 @@ impl Mask {
             && !text.contains('[')
             && others.iter().all(Rational::is_integer)
         {
-            let shared = Rational::from(last.denom().clone());
+            // As it is written: 2/8 is in lowest terms by now.
+            let written = list.rsplit_once('/').and_then(|(_, over)| rational::parse(over).ok());
+            let shared = written.unwrap_or_else(|| Rational::from(last.denom().clone()));
             for other in others {
                 *other /= &shared;
             }
@@ -302,7 +305,14 @@ mod tests {
     #[test]
     fn one_denominator_for_all() {
         let mask: Mask = "1/4,3/4,3/4,1/4".parse().unwrap();
-        for text in ["[1,3,3,1]/4", " [ 1, 3,3,1 ] / 4", "1,3,3,1/4", "[1/2,3/2,3/2,1/2]/2"] {
+        for text in [
+            "[1,3,3,1]/4",
+            " [ 1, 3,3,1 ] / 4",
+            "1,3,3,1/4",
+            "2,6,6,2/8",
+            "4/4,3,3,1/4",
+            "[1/2,3/2,3/2,1/2]/2",
+        ] {
             assert_eq!(text.parse::<Mask>().unwrap(), mask, "{text}");
         }
         let plain = Mask::parse("1,1", 2, None).unwrap();
