@@ -173,6 +173,16 @@ fn text_says_what_is_proved() {
         assert!(text.contains(part), "{part}: {text}");
     }
     let c1 = text.lines().find(|line| line.starts_with("C^1")).expect("a range");
+    let ranges = |name: &str| {
+        let found = bench.run(&format!("analyse {name} --range w --json")).ok().json();
+        (found["mask"].clone(), found["ranges"].clone())
+    };
+    // The name of a scheme on meshes too.
+    let paper = ranges("--curve three-point:1/32");
+    assert!(paper.1.as_array().is_some_and(|list| list.len() == 4), "{paper:?}");
+    for name in ["three-point", "--scheme three-point", ""] {
+        assert_eq!(ranges(name), paper, "{name}");
+    }
     let none = bench.run("analyse four-point --range w --within 5..6").ok();
     assert!(none.out_text().contains("no w found from 5 to 6"), "{}", none.out_text());
     // Ends are narrowed down to a millionth of the search.
@@ -198,7 +208,8 @@ fn mistakes_are_told_in_one_line() {
         ("--scheme four-pint:1/16", "invalid value"),
         ("--scheme four-point:1/16 --valence 5", "mean nothing to a mask"),
         ("four-point --boundary edge", "mean nothing to a mask"),
-        ("three-point --range w", "--range needs a name"),
+        ("loop --range w", "--range needs a name"),
+        ("three-point --range q", "three-point has no parameter 'q'; its parameters: w"),
         ("--mask 1,1 --range w", "--range needs a name"),
         ("chaikin --mask 1,1", "cannot be used"),
         ("--mask 1,1 --valence 5", "cannot be used"),

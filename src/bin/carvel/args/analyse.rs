@@ -88,7 +88,9 @@ impl AnalyseArgs {
             offset: *offset,
         });
         let named = curve.as_deref().or(positional).or(self.scheme.named_mask());
-        let source = coefficients.or(named.map(MaskSource::Named));
+        // A name of both is that of the curve where only curves have what is asked.
+        let both = range.as_ref().and_then(|_| self.scheme.curve_of(self.name.as_ref()));
+        let source = coefficients.or(named.or(both).map(MaskSource::Named));
         if source.is_none() && range.is_some() {
             let message = "--range needs a name of the catalogue, such as --scheme four-point";
             return Err(exit::Failure::usage(message));

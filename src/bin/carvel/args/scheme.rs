@@ -193,6 +193,14 @@ impl SchemeArgs {
         }
     }
 
+    /// The name in the catalogue of the curves that a scheme on meshes is named after.
+    pub(super) fn curve_of(&self, given: Option<&SchemeName>) -> Option<&'static str> {
+        match given.unwrap_or(&self.scheme) {
+            SchemeName::Mesh(Name::ThreePoint) => Some("three-point"),
+            _ => None,
+        }
+    }
+
     /// Split and passes of a mask, if one is given.
     fn factors(&self) -> Result<Option<Factors>, Failure> {
         let source = match (&self.mask, &self.scheme) {
