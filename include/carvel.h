@@ -2300,8 +2300,9 @@ typedef struct carvel_catalogue_parameter {
 
 /* Values of a parameter for which the schemes of a family are C^k: all that were sampled from
  * low_inside to high_inside. Proved is it for those two; the schemes of low_outside and
- * high_outside are proved not to be C^k, 0/0 where the search ended before. A value that is
- * alone has both insides. The layout is final. */
+ * high_outside are proved to have an exponent of k at most, and are not C^k if the shifts of
+ * their limit functions are stable; 0/0 where the search ended before. A value that is alone has
+ * both insides. The layout is final. */
 typedef struct carvel_parameter_range {
     carvel_fraction low_outside;
     carvel_fraction low_inside;

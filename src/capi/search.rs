@@ -87,6 +87,7 @@ unsafe fn run<Q, F: Copy, R: Copy + From<Option<F>>>(
         let out = Target::new((out, count), count, "out");
         let read = Span::of(queries.as_ptr(), size_of_val(queries), false, name);
         check_overlap(&[read, out.span()?])?;
+        context.check_memory(count.saturating_mul(size_of::<Option<F>>() as u64))?;
         let mut found = memory::filled(None, queries.len())?;
         work(search, &context, queries, &mut found)?;
         for (slot, found) in out.slice().iter_mut().zip(found) {

@@ -181,6 +181,22 @@ fn analyses_report_and_stop() {
     assert!(seen.len() == 3 && seen.is_sorted(), "{seen:?}");
 }
 
+/// A radius a little above m⁻³ is not rounded to it, nor the exponent to 3.
+#[test]
+fn a_radius_is_not_taken_for_the_power_beside_it() {
+    for (arity, places) in [(5, 25), (3, 40), (10, 26)] {
+        let over = num_traits::pow(q("1/10"), places);
+        let kernel = Laurent::new(0, vec![q("1") + &over, -over]);
+        let smoothed = (0..4).fold(kernel, |p, _| &p * &Laurent::sigma(arity));
+        let symbol = smoothed.scaled(&num_traits::pow(ratio(1, arity as i64), 3));
+        let mask = Mask::new(arity, 0, symbol.coefficients().to_vec()).expect("a mask");
+        let found = Analysis::of(&serial(), &mask, Effort::default()).expect("done");
+        assert_eq!(found.continuity, Some(2), "{arity}");
+        assert!(found.holder.low < 3.0 && found.holder.high >= 3.0, "{:?}", found.holder);
+        assert!(found.holder.high - found.holder.low < 1e-12);
+    }
+}
+
 /// One of the longest of the catalogue, cancelled in the middle, ends long before it would.
 #[test]
 fn hard_analyses_can_be_cancelled() {

@@ -32,8 +32,8 @@ fn the_scheme_is_c2_by_a_norm_of_three_quarters() {
     assert_eq!(analysis.holder.radius.exact, Some(q("3/16")));
     assert_eq!(analysis.holder.radius.certificate, Certificate::Norm);
     let exponent = 2.0 - 0.75_f64.log2();
-    assert!((analysis.holder.low - exponent).abs() < 1e-14);
-    assert_eq!(analysis.holder.low, analysis.holder.high);
+    let [low, high] = [analysis.holder.low, analysis.holder.high];
+    assert!(low < exponent && exponent < high && high - low < 1e-13, "{low} {high}");
     assert_eq!((analysis.degrees.generation, analysis.degrees.reproduction), (2, 1));
 }
 

@@ -34,6 +34,17 @@ fn check(name: &str, k: usize, search: [&str; 2], expected: [f64; 2]) {
     }
 }
 
+/// More than any scheme of the family has factors for; at once, whatever is asked.
+#[test]
+fn no_parameter_is_smooth_without_end() {
+    for k in [7, u32::MAX as usize] {
+        let search = [&q("0"), &q("1/4")];
+        let found =
+            open("four-point").continuity_range(&Context::serial(), k, search, &q("1/1000"));
+        assert_eq!(found.expect("done"), []);
+    }
+}
+
 #[test]
 fn three_point_c0_c1_c2() {
     check("three-point", 0, ["-1", "1"], [-0.375, 0.625]);

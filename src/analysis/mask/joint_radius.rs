@@ -121,9 +121,12 @@ fn by_norm(context: &Context, matrices: &[Vec<Vec<Rational>>]) -> Result<Option<
         let value =
             |at: &Rational| polynomial.iter().rev().fold(Rational::zero(), |v, c| v * at + c);
         if value(&norm).is_zero() || value(&-&norm).is_zero() {
+            let near = to_f64(&norm);
+            let is_exact = from_f64(near).is_some_and(|near| near == norm);
+            let apart = if is_exact { 0.0 } else { 1e-15 };
             return Ok(Some(JointRadius {
-                low: to_f64(&norm),
-                high: to_f64(&norm),
+                low: near.min(f64::MAX) * (1.0 - apart),
+                high: near * (1.0 + apart),
                 exact: Some(norm),
                 word: vec![e],
                 certificate: Certificate::Norm,
@@ -184,8 +187,11 @@ impl<'a> Search<'a> {
         for below in [1e-11, 1e-9, 1e-7, 1e-5, 1e-3, 1e-1] {
             context.check_cancelled()?;
             let growth = self.growth() * (1.0 - below);
-            let radius = from_f64(libm::pow(growth, length as f64));
-            let Some(radius) = radius.map(|radius| radius * &scale) else { continue };
+            // Near the smallest doubles powers are rounded by more than is taken off below.
+            let radius = Some(libm::pow(growth, length as f64)).filter(|radius| radius.is_normal());
+            let Some(radius) = radius.and_then(from_f64).map(|radius| radius * &scale) else {
+                continue;
+            };
             if has_root_beyond(context, &polynomial, &radius)? {
                 // The power is rounded, by less than what is taken off here.
                 return Ok(growth * (1.0 - 1e-14));

@@ -47,7 +47,8 @@ pub enum ParameterRange {
 pub struct End {
     /// Proved C^k.
     pub inside: Rational,
-    /// Proved to have an exponent of k at most; `None` if the search ended before.
+    /// Proved to have an exponent of k at most, so not to be C^k if the shifts of the limit
+    /// function are stable; `None` if the search ended before.
     pub outside: Option<Rational>,
 }
 
@@ -137,8 +138,8 @@ impl AffineFamily {
     /// All w within `low..=high` for which the scheme is C^`k`, ends narrower than
     /// `tolerance` where both sides can be decided so close together.
     ///
-    /// About a hundred comparisons of a joint spectral radius with m⁻ᵏ: about a second. Intervals narrower than a 32nd of
-    /// the search may be missed.
+    /// About a hundred comparisons of a joint spectral radius with m⁻ᵏ: about a second. Intervals
+    /// narrower than a 32nd of the search may be missed.
     ///
     /// # Errors
     /// [`ErrorKind::ParameterOutOfRange`] for an empty search or a tolerance that is not
@@ -254,9 +255,12 @@ impl AffineFamily {
         if contractivity(context, &mask, k, CHEAP)?.is_some() {
             return Ok(Verdict::Smooth);
         }
+        let Smoothing { factors, kernel } = Smoothing::of(&mask);
+        if k >= factors {
+            return Ok(Verdict::Open);
+        }
         // C^k asks for an exponent above k: a radius below m⁻ᵏ.
         let threshold = pow(ratio(1, self.arity as i64), k);
-        let kernel = Smoothing::of(&mask).kernel;
         Ok(match side_of(context, self.arity, &kernel, &threshold)? {
             Side::Below => Verdict::Smooth,
             Side::AtLeast => Verdict::NotSmooth,

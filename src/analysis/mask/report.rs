@@ -101,8 +101,7 @@ impl Holder {
             return Self::beyond_doubles(context, m, &smoothing.kernel, shift);
         }
         let radius = JointRadius::of(context, m, &smoothing.kernel)?;
-        if let Some(exact) = &radius.exact {
-            let exponent = exact_exponent(m, exact).unwrap_or_else(|| exponent(m, to_f64(exact)));
+        if let Some(exponent) = radius.exact.as_ref().and_then(|exact| exact_exponent(m, exact)) {
             return Ok(Self { low: exponent, high: exponent, radius });
         }
         // Logarithms are good to a unit or two; this is outwards by more.

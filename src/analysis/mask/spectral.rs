@@ -134,6 +134,9 @@ pub(super) fn has_root_beyond(
     polynomial: &[Rational],
     radius: &Rational,
 ) -> Result<bool> {
+    if radius.is_zero() {
+        return Ok(polynomial.len() > 1);
+    }
     let powers = std::iter::successors(Some(Rational::one()), |power| Some(power * radius));
     let mut rest: Vec<_> = polynomial.iter().zip(powers).map(|(c, power)| c * power).collect();
     let there: Rational = rest.iter().sum();
@@ -189,6 +192,7 @@ mod tests {
         let triple = [ratio(-1, 1), ratio(3, 1), ratio(-3, 1), ratio(1, 1)];
         assert!(beyond(&triple, 1, 1) && !beyond(&triple, 1001, 1000));
         assert!(!beyond(&[ratio(1, 1)], 1, 1));
+        assert!(beyond(&polynomial, 0, 1) && !beyond(&[ratio(1, 1)], 0, 1));
     }
 
     #[test]

@@ -215,7 +215,9 @@ fn fixed(value: f64, digits: usize) -> String {
 fn exponent(found: &Analysis) -> String {
     let (holder, radius) = (&found.holder, &found.holder.radius);
     match (&radius.exact, radius.certificate) {
-        (Some(exact), _) => format!("{} (radius {exact})", holder.low),
+        (Some(exact), _) => {
+            format!("{} (radius {exact})", f64::midpoint(holder.low, holder.high))
+        }
         (None, Certificate::Polytope(n)) => {
             format!("{} to {} (invariant polytope, {n} vertices)", holder.low, holder.high)
         }
