@@ -45,7 +45,7 @@ impl Tension {
         if fine && value.is_finite() {
             return Ok(());
         }
-        Err(out_of_range(format!("tension {value} is out of range")))
+        Err(out_of_range(format!("tension {value} is out of range: it must be above -1")))
     }
 
     /// The tension of the next level.

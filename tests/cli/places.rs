@@ -97,6 +97,22 @@ fn standard_streams() {
 }
 
 #[test]
+fn a_report_on_the_error_stream_is_alone_there() {
+    let bench = Bench::new();
+    bench.put("cube.obj", CUBE);
+    for (command, noted) in [
+        ("subdivide cube.obj -o - --format stl --json", true),
+        ("tessellate cube.obj -o - --format stl --relative 1e-1 --json", true),
+        ("stencils cube.obj -o - --format mtx --json", false),
+    ] {
+        let run = bench.run(command).ok();
+        let report: serde_json::Value = serde_json::from_str(&run.err).expect(command);
+        let notes = report["notes"].as_array().or(report[0]["notes"].as_array()).expect(command);
+        assert_eq!(!notes.is_empty(), noted, "{command}: {report}");
+    }
+}
+
+#[test]
 fn a_reader_that_goes_away_is_no_error() {
     let bench = Bench::new();
     bench.put("cube.obj", CUBE);
@@ -112,23 +128,33 @@ fn a_reader_that_goes_away_is_no_error() {
 #[cfg(unix)]
 #[test]
 fn an_interruption_leaves_nothing() {
+    interrupted("subdivide cube.obj -o out.obj --levels 10");
+    interrupted("curve square.csv -o out.obj --closed --scheme chaikin --steps 20");
+}
+
+/// Interrupts a command that writes `out.obj` while it does so.
+#[cfg(unix)]
+fn interrupted(command: &str) {
     use std::process::Stdio;
     let bench = Bench::new();
-    bench.put("cube.obj", CUBE).put("out.obj", "precious");
+    bench
+        .put("cube.obj", CUBE)
+        .put("square.csv", "0,0\n1,0\n1,1\n0,1\n")
+        .put("out.obj", "precious");
     let before = bench.files();
-    let mut command = bench.command("subdivide cube.obj -o out.obj --levels 10");
-    let child = command.stderr(Stdio::piped()).spawn().unwrap();
+    let child = bench.command(command).stderr(Stdio::piped()).spawn().unwrap();
     // The temporary file says that writing has begun; it takes its time.
     let start = std::time::Instant::now();
     while bench.files() == before {
-        assert!(start.elapsed().as_secs() < 100, "nothing was written");
+        assert!(start.elapsed().as_secs() < 100, "{command}: nothing was written");
         std::thread::sleep(std::time::Duration::from_millis(1));
     }
     let pid = child.id().to_string();
     let kill = std::process::Command::new("kill").args(["-s", "INT", &pid]).status();
     assert!(kill.unwrap().success());
     let output = child.wait_with_output().unwrap();
-    assert_eq!(output.status.code(), Some(8), "{}", String::from_utf8_lossy(&output.stderr));
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(8), "{command}: {said}");
     assert_eq!(bench.get("out.obj"), b"precious");
     assert_eq!(bench.files(), before);
 }

@@ -27,7 +27,8 @@ struct Done {
 pub fn run(args: &StencilArgs) -> Result<Exit, Failure> {
     let format = args.check()?;
     places::require_parent(&args.output)?;
-    let session = Session::new(args.threads, args.memory, args.quiet)?;
+    let quiet = args.quiet || args.json && places::is_stream(&args.output);
+    let session = Session::new(args.threads, args.memory, quiet)?;
     let result = match args.precision {
         NumberType::F32 => make::<f32>(args, format, &session),
         NumberType::F64 => make::<f64>(args, format, &session),

@@ -32,7 +32,8 @@ pub fn run(args: &SubdivideArgs) -> Result<Exit, Failure> {
         format: args.files.format,
         picture: args.preview.as_deref(),
     })?;
-    let session = Session::new(args.threads, args.memory, args.quiet)?;
+    let quiet = args.quiet || args.json && places::is_stream(&args.output);
+    let session = Session::new(args.threads, args.memory, quiet)?;
     let engine = Engine::new(args.precision);
     Run { args, chosen: &chosen, view: &view, session: &session, engine }.all(&jobs)
 }

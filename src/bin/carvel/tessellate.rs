@@ -43,7 +43,8 @@ pub fn run(args: &TessellateArgs) -> Result<Exit, Failure> {
         format: args.files.format,
         picture: args.preview.as_deref(),
     })?;
-    let session = Session::new(args.threads, args.memory, args.quiet)?;
+    let quiet = args.quiet || args.json && places::is_stream(&args.output);
+    let session = Session::new(args.threads, args.memory, quiet)?;
     Run { args, view: &view, session: &session }.all(&jobs)
 }
 

@@ -10,6 +10,8 @@ use glam::DVec3;
 
 /// Bytes of a place while it is evaluated, its vertex among them.
 const PLACE: u64 = (size_of::<Point>() + size_of::<Sample>() + 4 + 4 + 3 * 24 + 72) as u64;
+/// Triangles that 32 bits number, [`NONE`] apart.
+const MOST_TRIANGLES: u64 = NONE as u64 - 1;
 /// Bytes of a triangle.
 const TRIANGLE: u64 = (12 + 12 + 4) as u64;
 /// Bytes of a cell with its vertex and its two triangles; borders add some.
@@ -51,9 +53,12 @@ impl<'a> Plan<'a> {
             let fits = |n: u64| u32::try_from(n).ok().filter(|&n| n != NONE);
             let too_large = || Error::new(ErrorKind::TooLarge, "more points than 32 bits number");
             if triangles > most {
-                return Err(split::too_many());
+                return Err(split::too_many(most));
             }
-            Ok([fits(places).ok_or_else(too_large)?, fits(triangles).ok_or_else(split::too_many)?])
+            Ok([
+                fits(places).ok_or_else(too_large)?,
+                fits(triangles).ok_or_else(|| split::too_many(MOST_TRIANGLES))?,
+            ])
         };
         for (i, (cut, further, count)) in found.into_iter().enumerate() {
             memory::extend(&mut starts, [start(sums)?])?;

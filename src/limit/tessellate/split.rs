@@ -150,7 +150,7 @@ impl Splitter<'_> {
         if self.is_ceiling_lower {
             return self.context.check_memory(cells.saturating_mul(self.goal.bytes));
         }
-        if cells > self.goal.cells { Err(too_many()) } else { Ok(()) }
+        if cells > self.goal.cells { Err(too_many(self.goal.cells)) } else { Ok(()) }
     }
 
     /// Looks at some cells.
@@ -225,7 +225,7 @@ impl Splitter<'_> {
             let cells = (before / PAUSE + 1) * PAUSE;
             self.context.check_memory(cells.saturating_mul(self.goal.bytes))?;
         } else if before >= self.goal.cells {
-            return Err(too_many());
+            return Err(too_many(self.goal.cells));
         }
         found.largest = found.largest.max(leaf.measure);
         found.coarse += u64::from(!leaf.fine);
@@ -241,12 +241,17 @@ struct Leaf {
 }
 
 pub(in crate::limit) fn no_surface(root: &Root) -> Error {
-    let message = "there is no surface, or none that is evaluated, in a part of the face";
-    Error::new(ErrorKind::Unsupported, message).with_elements([Element::Face(u64::from(root.face))])
+    let face = root.face;
+    let message = format!(
+        "face {face}: there is no surface in a part of it, or none that is evaluated, as under dual \
+         schemes beside a boundary where faces are no regular grid"
+    );
+    Error::new(ErrorKind::Unsupported, message).with_elements([Element::Face(u64::from(face))])
 }
 
-pub(super) fn too_many() -> Error {
-    Error::new(ErrorKind::TooLarge, "more triangles are needed than may be made")
+pub(super) fn too_many(most: u64) -> Error {
+    let message = format!("more triangles are needed than may be made, {most}");
+    Error::new(ErrorKind::TooLarge, message)
 }
 
 /// The points that a fit of a cell is made of.

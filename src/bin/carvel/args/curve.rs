@@ -21,7 +21,7 @@ pub struct CurveArgs {
     pub output: PathBuf,
     /// The number of steps.
     #[arg(short = 'n', long, value_name = "N", default_value_t = 4,
-          value_parser = clap::value_parser!(u32).range(0..=64))]
+          allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(0..=64))]
     pub steps: u32,
     /// A scheme of the catalogue with its parameters; `carvel catalogue` lists all.
     /// tension-four-point takes one tension, or one for each edge; tension-ternary-four-point
@@ -80,7 +80,7 @@ pub struct CurveArgs {
     #[arg(long, value_name = "BYTES", value_parser = memory::parse, help_heading = "Run")]
     pub memory: Option<u64>,
     /// Print a report as JSON on the standard output (on the standard error
-    /// stream if the standard output is taken).
+    /// stream, without notes, if the standard output is taken).
     #[arg(long, help_heading = "Run")]
     pub json: bool,
     /// Print neither notes nor progress nor summaries, only errors.

@@ -72,7 +72,7 @@ pub struct SubdivideArgs {
     /// The number of refinement steps; 0 is a plain conversion that keeps all
     /// that the output's format can hold.
     #[arg(short, long, value_name = "N", default_value_t = 2,
-          value_parser = clap::value_parser!(u32).range(0..=64))]
+          allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(0..=64))]
     pub levels: u32,
     /// The scheme and its parameters.
     #[command(flatten)]
@@ -102,7 +102,7 @@ pub struct SubdivideArgs {
     #[arg(long, help_heading = "Output")]
     pub limit: bool,
     /// Write the normals of the limit surface at the vertices of the last level, in place of
-    /// normals that the input has; for OBJ and PLY.
+    /// normals that the input has; for OBJ, PLY and OFF.
     #[arg(long, help_heading = "Output")]
     pub normals: bool,
     /// Also draw the result as a PNG picture (a directory for several inputs).
@@ -118,7 +118,7 @@ pub struct SubdivideArgs {
     #[arg(long, value_name = "BYTES", value_parser = memory::parse, help_heading = "Run")]
     pub memory: Option<u64>,
     /// Print a report as JSON on the standard output (on the standard error
-    /// stream if the standard output is taken).
+    /// stream, without notes, if the standard output is taken).
     #[arg(long, help_heading = "Run")]
     pub json: bool,
     /// Print neither notes nor progress nor summaries, only errors.

@@ -21,7 +21,7 @@ pub struct StencilArgs {
     pub output: PathBuf,
     /// The level whose vertices are the rows; columns are the vertices of the input.
     #[arg(short, long, value_name = "N", default_value_t = 2,
-          value_parser = clap::value_parser!(u32).range(0..=64))]
+          allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(0..=64))]
     pub levels: u32,
     /// The scheme and its parameters.
     #[command(flatten)]
@@ -62,7 +62,7 @@ pub struct StencilArgs {
     #[arg(long, value_name = "BYTES", value_parser = memory::parse, help_heading = "Run")]
     pub memory: Option<u64>,
     /// Print a report as JSON on the standard output (on the standard error
-    /// stream if the standard output is taken).
+    /// stream, without notes, if the standard output is taken).
     #[arg(long, help_heading = "Run")]
     pub json: bool,
     /// Print neither notes nor progress nor summaries, only errors.

@@ -37,7 +37,7 @@ pub struct TessellateArgs {
     pub pixels: Option<f64>,
     /// How often the sides of a face are halved at most.
     #[arg(long, value_name = "N", default_value_t = 20, help_heading = "Fineness",
-          value_parser = clap::value_parser!(u32).range(0..=24))]
+          allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(0..=24))]
     pub max_levels: u32,
     /// The most triangles; if more are needed nothing is written.
     #[arg(long, value_name = "N", default_value_t = 100_000_000, help_heading = "Fineness")]
@@ -71,7 +71,7 @@ pub struct TessellateArgs {
     #[arg(long, value_name = "BYTES", value_parser = memory::parse, help_heading = "Run")]
     pub memory: Option<u64>,
     /// Print a report as JSON on the standard output (on the standard error
-    /// stream if the standard output is taken).
+    /// stream, without notes, if the standard output is taken).
     #[arg(long, help_heading = "Run")]
     pub json: bool,
     /// Print neither notes nor progress nor summaries, only errors.

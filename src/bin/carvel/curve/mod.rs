@@ -51,7 +51,8 @@ pub fn run(args: &CurveArgs) -> Result<Exit, Failure> {
     args.input_format()?;
     check(args, &scheme, format)?;
     places::require_parent(&args.output)?;
-    let session = Session::new(args.threads, args.memory, args.quiet)?;
+    let quiet = args.quiet || args.json && places::is_stream(&args.output);
+    let session = Session::new(args.threads, args.memory, quiet)?;
     let run = Run { args, scheme: &scheme, format, session: &session };
     let result = match args.precision {
         CurveNumbers::F32 => run.one::<f32>(),
@@ -247,7 +248,7 @@ impl Run<'_> {
         let output = &self.args.output;
         let written = self.session.on_path(output, || {
             atomic::write_with(output, |sink| {
-                let out = &mut write::Out::new(sink);
+                let out = &mut write::Out::new(sink, &self.session.context);
                 match (made, self.format) {
                     (Made::Polygons(list), CurveFormat::Obj) => write::obj_lines(out, list)?,
                     (Made::Grid(grid), CurveFormat::Obj) => write::obj_faces(out, grid)?,

@@ -2,7 +2,7 @@
 
 use super::number::Number;
 use carvel::curve::{Ends, Grid, Polygon};
-use carvel::{Error, ErrorKind, Result};
+use carvel::{Context, Error, ErrorKind, Result};
 use std::io::Write;
 
 /// Bytes that are handed on at once.
@@ -11,13 +11,14 @@ const PIECE: usize = 1 << 16;
 /// Text on its way to a file.
 pub struct Out<'a> {
     sink: &'a mut dyn Write,
+    context: &'a Context,
     text: String,
 }
 
 impl<'a> Out<'a> {
     /// Text for a file.
-    pub fn new(sink: &'a mut dyn Write) -> Self {
-        Self { sink, text: String::new() }
+    pub fn new(sink: &'a mut dyn Write, context: &'a Context) -> Self {
+        Self { sink, context, text: String::new() }
     }
 
     fn line(&mut self, line: &str) -> Result<()> {
@@ -29,8 +30,11 @@ impl<'a> Out<'a> {
     /// Hands on what is left.
     ///
     /// # Errors
-    /// Those of the file.
+    /// Those of the file; [`ErrorKind::Cancelled`].
     pub fn flush(&mut self) -> Result<()> {
+        if self.context.is_cancelled() {
+            return Err(Error::new(ErrorKind::Cancelled, "cancelled"));
+        }
         let written = self.sink.write_all(self.text.as_bytes());
         self.text.clear();
         written.map_err(|e| Error::io("polygons", e))
