@@ -415,10 +415,13 @@ fn reach_and_range_leave_out_what_is_beyond() {
     let query = [0.1, 0.2, 9.0];
     let distance = case.closest(&[query])[0].distance;
     let context = Context::serial();
-    for (reach, found) in [(distance * 0.999, false), (distance * 1.001, true), (0.0, false)] {
+    let reaches =
+        [(distance * 0.999, false), (distance * 1.001, true), (distance, true), (0.0, false)];
+    for (reach, found) in reaches {
         let mut out = [None];
         case.search.closest(&context, &[query], reach, &mut out).unwrap();
         assert_eq!(out[0].is_some(), found, "{reach}");
+        assert!(out[0].is_none_or(|closest| closest.distance <= reach));
     }
     let mut ray = Ray::new(query, [0.0, 0.0, -1.0]);
     let first = case.hits(&[ray])[0].unwrap();
@@ -452,6 +455,12 @@ fn tangent_rays_hit() {
     let hit = plane.hits(&[ray])[0].expect("the ray runs within the plane");
     let low = grid.positions.iter().map(|p| p[0]).fold(f64::INFINITY, f64::min);
     assert!((hit.point[0] - low).abs() < 1e-9, "{hit:?}");
+    // So narrowly across it that all of the plane counts as on it.
+    for (lift, slope) in [(1e-13, 1e-14), (-1e-13, 1e-14), (1e-13, -1e-14), (0.0, 1e-15)] {
+        let ray = Ray::new([-20.0, middle[1], lift - 20.0 * slope], [1.0, 0.0, slope]);
+        let hit = plane.hits(&[ray])[0].expect("the ray runs along the plane");
+        assert!((hit.point[0] - low).abs() < 1e-9, "{lift} {slope}: {hit:?}");
+    }
     let cube = Case::new("cube", Shape::new(&bases::cube()), &Scheme::catmull_clark());
     let top = cube.point(Sample { face: 0, sector: 0, u: 0.5, v: 0.5 });
     let aside = [0, 1, 2].map(|k| if top[k].abs() > 0.1 { 0.0 } else { 1.0 });
@@ -459,6 +468,83 @@ fn tangent_rays_hit() {
         let origin = [0, 1, 2].map(|k| lift * top[k] - 3.0 * aside[k]);
         let found = cube.hits(&[Ray::new(origin, aside)])[0];
         assert_eq!(found.is_some(), hits, "{lift}: {found:?} from {origin:?}");
+    }
+}
+
+/// A plane in no special position, and rays at small angles to it through its inner edges.
+#[test]
+fn rays_at_small_angles_do_not_slip_through() {
+    let unit = |p: Point| p.map(|x| x / length(p));
+    let cross = |[a, b, c]: Point, [d, e, f]: Point| [b * f - c * e, c * d - a * f, a * e - b * d];
+    let mut noise = Noise(11);
+    let along = unit(noise.point());
+    let across = unit(cross(along, noise.point()));
+    let normal = cross(along, across);
+    let place = |x: f64, y: f64| [0, 1, 2].map(|k| x * along[k] + y * across[k]);
+    let mut grid = bases::grid(8, 8);
+    grid.positions.iter_mut().for_each(|p| *p = place(p[0] / 8.0, p[1] / 8.0));
+    let scheme = Scheme::catmull_clark().with_boundary(Boundary::EdgeAndCorner);
+    let case = Case::new("plane", Shape::new(&grid), &scheme);
+    for slope in [1e-4, 1e-6, 1e-7, 1e-8, 1e-10, 1e-12] {
+        let rays: Vec<Ray> = (0..50)
+            .map(|i| {
+                let x = 0.2 + 0.3 * (noise.next() + 1.0);
+                let p = if i % 2 == 0 { place(x, 0.5) } else { place(0.5, x) };
+                let (sin, cos) = (3.0 * noise.next()).sin_cos();
+                let [a, b] = [cos, sin];
+                let d = [0, 1, 2].map(|k| a * along[k] + b * across[k] + slope * normal[k]);
+                Ray::new([0, 1, 2].map(|k| p[k] - 0.1 * d[k]), d)
+            })
+            .collect();
+        let hits = case.hits(&rays);
+        assert!(hits.iter().all(Option::is_some), "{slope}: {hits:?}");
+        check_on_rays(&rays, &hits);
+    }
+}
+
+/// Every hit is on its ray.
+#[track_caller]
+fn check_on_rays(rays: &[Ray], hits: &[Option<Hit>]) {
+    for (ray, hit) in rays.iter().zip(hits) {
+        let Some(hit) = hit else { continue };
+        let on = [0, 1, 2].map(|k| ray.origin[k] + hit.t * ray.direction[k]);
+        assert!(length(minus(on, hit.point)) < EXACT, "{ray:?}: {hit:?}");
+    }
+}
+
+/// Where a surface without polynomials turns, a part bends as far as it goes: it is no point.
+#[test]
+fn hits_where_a_surface_turns_are_on_their_rays() {
+    let n = 8;
+    let mut torus = bases::torus(n, n);
+    for (i, p) in torus.positions.iter_mut().enumerate() {
+        let sign = |odd: usize| if odd.is_multiple_of(2) { 1.0 } else { -1.0 };
+        let (x, y) = (sign(i % n), 0.02 * sign(i / n));
+        *p = [x + y, x - y, x];
+    }
+    let case = Case::new("turns", Shape::new(&torus), &three_point());
+    let p = case.closest(&[[5.0; 3]])[0].point;
+    let mut noise = Noise(21);
+    let near = |d: Point, e: Point| [0, 1, 2].map(|k| p[k] - 3.0 * d[k] + 0.06 * p[2] * e[k]);
+    let rays: Vec<Ray> = (0..40)
+        .map(|_| {
+            let (d, e) = (noise.point(), noise.point());
+            Ray::new(near(d, e), d)
+        })
+        .collect();
+    let hits = case.hits(&rays);
+    assert!(hits.iter().flatten().count() > 3);
+    check_on_rays(&rays, &hits);
+}
+
+#[test]
+fn a_range_that_ends_before_it_begins_has_no_hit() {
+    let case = Case::new("cube", Shape::new(&bases::cube()), &Scheme::catmull_clark());
+    let down = Ray::new([0.1, 0.2, 3.0], [0.0, 0.0, -1.5]);
+    let mut t = case.hits(&[down])[0].unwrap().t;
+    for _ in 0..16 {
+        assert_eq!(case.hits(&[Ray { range: [t.next_up(), t], ..down }]), [None]);
+        t = t.next_up();
     }
 }
 

@@ -7,6 +7,7 @@
 
 use super::cell::{corners, middle, within};
 use super::jet::{Hodograph, Jet};
+use super::minimise::minimise;
 use super::part::{Bounds, Form, Part};
 use super::queue::{Place, Queue};
 use super::{ABSOLUTE, Inside, Visits};
@@ -106,14 +107,14 @@ pub(super) fn cast(inside: Inside<'_>, line: Line, queue: &mut Queue) -> Result<
         if bound > query.farthest() {
             break;
         }
-        if visits.add(inside.context)? {
+        if visits.add(inside.context, queue)? {
             query.line.tolerance *= 2.0;
         }
         match place {
             Place::Branch(branch) => query.branch(branch, bound, queue)?,
             Place::First(part) => query.visit(&inside.parts[part as usize], queue)?,
             Place::Made(part) => {
-                let part = queue.take(part);
+                let part = queue.take(part)?;
                 query.visit(&part, queue)?;
             }
         }
@@ -154,22 +155,50 @@ impl Cast<'_> {
     /// The extent of a part across and along the ray, if that may meet it.
     fn seen(&self, part: &Part) -> Option<Seen> {
         let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        let mut ends = [[DVec2::ZERO; 2]; 2];
         for q in part.points() {
             let q = self.line.place(q);
+            for (axis, [least, most]) in ends.iter_mut().enumerate() {
+                if q[axis] < low[axis] {
+                    *least = q.truncate();
+                }
+                if q[axis] > high[axis] {
+                    *most = q.truncate();
+                }
+            }
             (low, high) = (low.min(q), high.max(q));
         }
-        let slack = DVec3::splat(part.slack + self.line.tolerance);
+        let slack = part.slack + self.line.tolerance;
+        let widest = usize::from(high.y - low.y > high.x - low.x);
+        let [least, most] = ends[widest];
         (low, high) = (low - slack, high + slack);
         let meets = low.truncate().max_element() <= 0.0 && high.truncate().min_element() >= 0.0;
         let [first, _] = self.line.range;
-        (meets && high.z >= first && low.z <= self.farthest()).then_some(Seen { low, high })
+        let is_there = meets && high.z >= first && low.z <= self.farthest();
+        (is_there && self.is_in_strip(part, most - least, slack)).then_some(Seen { low, high })
+    }
+
+    /// Whether a part, seen along the ray, is on both sides of it, looking in a direction. What is
+    /// seen at a small angle is narrow, but the box around it is not.
+    fn is_in_strip(&self, part: &Part, direction: DVec2, slack: f64) -> bool {
+        let Some(across) = direction.perp().try_normalize() else {
+            return true;
+        };
+        let [x, y] = self.line.across;
+        let across = across.x * x + across.y * y;
+        let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+        for q in part.points() {
+            let off = (q - self.line.origin).dot(across);
+            (low, high) = (low.min(off), high.max(off));
+        }
+        low <= slack && high >= -slack
     }
 
     fn visit(&mut self, part: &Part, queue: &mut Queue) -> Result<()> {
         let Some(Seen { low, high }) = self.seen(part) else {
             return Ok(());
         };
-        let is_point = (high - low).max_element() <= 4.0 * (part.slack + self.line.tolerance);
+        let is_point = (high - low).max_element() <= 4.0 * self.line.tolerance;
         if is_point || part.cell.is_smallest() {
             return self.offer_any(part);
         }
@@ -197,11 +226,17 @@ impl Cast<'_> {
         Ok(())
     }
 
-    /// True if a part, seen along the ray, does not fold.
+    /// True if a part, seen along the ray, does not fold, nor is so narrow that it may be on the ray
+    /// for long.
     fn meets_once(&self, fit: &Fit, safety: f64) -> bool {
         let hodograph = Hodograph::of(fit);
         let means = [0, 1].map(|axis| self.line.across(hodograph.spread(axis).0));
-        let inverse = DMat2::from_cols(means[0], means[1]).inverse();
+        let slopes = DMat2::from_cols(means[0], means[1]);
+        let longest = means[0].length().max(means[1].length());
+        if slopes.determinant().abs() <= 8.0 * self.line.tolerance * longest {
+            return false;
+        }
+        let inverse = slopes.inverse();
         let mut unlike = 0.0;
         for axis in [0, 1] {
             let mut most = 0.0_f64;
@@ -239,6 +274,16 @@ impl Cast<'_> {
                 break;
             }
         }
+        // A root just beyond the border, seen at a small angle, may be far from where it was moved
+        // to: what counts is the point of the border that is nearest to the ray.
+        at = minimise(fit.shape, at, |at| {
+            let Jet([q, s, t, ..]) = point(at)?;
+            let off = self.line.place(q).truncate();
+            let (s, t) = (self.line.across(s), self.line.across(t));
+            let first = [s.dot(s), s.dot(t), t.dot(t)];
+            Ok((off.length_squared(), [off.dot(s), off.dot(t)], first, [0.0; 3]))
+        })?
+        .at;
         let q = self.seen_at(part, at)?;
         if q.truncate().abs().max_element() <= 2.0 * self.line.tolerance {
             self.offer(part, at, q.z);

@@ -162,10 +162,14 @@ struct Visits(u64);
 
 impl Visits {
     /// Counts one; true where tolerances are to be doubled, so that every query ends.
-    fn add(&mut self, context: &Context) -> Result<bool> {
+    ///
+    /// # Errors
+    /// [`ErrorKind::Cancelled`], [`ErrorKind::MemoryCeiling`].
+    fn add(&mut self, context: &Context, queue: &Queue) -> Result<bool> {
         self.0 += 1;
         if self.0.is_multiple_of(PAUSE) {
             context.check_cancelled()?;
+            context.check_memory(queue.bytes())?;
         }
         Ok(self.0 > PATIENCE && self.0.is_multiple_of(STEP))
     }
@@ -218,17 +222,18 @@ impl Search {
     /// away than `reach`, which may be infinite, or if there is no surface.
     ///
     /// No other point of the surface is nearer by more than a 10⁻⁹ of the distance, or 10⁻¹² of
-    /// the largest coordinate of a control point (and 10⁻¹⁵ of the query's). Where the kind of bounds that
-    /// hold for the scheme are proven ([`Search`]), so is that; parts are halved 50 times
-    /// at most. Among points equally near one is chosen, always the same. The result does not
-    /// depend on the number of threads.
+    /// the largest coordinate of a control point (and 10⁻¹⁵ of the query's); by so little it may be
+    /// beyond the reach as well, which is its distance then. Where the kind of bounds that hold for
+    /// the scheme are proven ([`Search`]), so is that; parts are halved 50 times at most. Among
+    /// points equally near one is chosen, always the same. The result does not depend on the number
+    /// of threads.
     ///
     /// # Errors
     /// [`ErrorKind::LengthMismatch`] for an output of another length than the points;
     /// [`ErrorKind::NotFinite`] for a coordinate that is not finite;
     /// [`ErrorKind::ParameterOutOfRange`] for a point 10¹⁰⁰ times as far from the origin as any
     /// control point is, both naming the query, and for a reach that is negative or NaN;
-    /// [`ErrorKind::OutOfResources`], [`ErrorKind::Cancelled`]. What is in `out` then is
+    /// [`ErrorKind::MemoryCeiling`], [`ErrorKind::OutOfResources`], [`ErrorKind::Cancelled`]. What is in `out` then is
     /// unspecified.
     pub fn closest(
         &self,
@@ -248,31 +253,29 @@ impl Search {
             nearest(inside, p, scaled_reach, queue)
         })?;
         let places = |near: &Near| (near.root, near.at);
-        self.finish(context, &found, places, out, |i, near, sample, point| {
+        self.finish(context, &found, places, out, |i, _, sample, point| {
             let p = DVec3::from(points[i].map(|x| libm::scalbn(x, self.exponent)));
             // The point is evaluated anew, and a little off.
-            let distance = point.distance(p);
-            let distance = if distance <= scaled_reach { distance } else { near.distance };
-            let distance = libm::scalbn(distance, -self.exponent);
-            Closest { sample, point: self.unscaled(point), distance }
+            let distance = libm::scalbn(point.distance(p), -self.exponent);
+            Closest { sample, point: self.unscaled(point), distance: distance.min(reach) }
         })
     }
 
     /// For each ray the first point of the surface on it, or `None`. The surface has two sides.
     ///
-    /// Points within 10⁻¹² to 4·10⁻¹² of the largest coordinate of a control point (and 10⁻¹⁵ of the
-    /// origin's) from the ray are on it. So faces leave no gaps between them, and a ray that is tangent to the
-    /// surface meets it, at a place that is uncertain by the square root of that. Where a ray
-    /// runs within the surface its first point there is found. A hit is the first but for others
-    /// nearer by less than 10⁻¹¹ of that. Where bounds are proven
-    /// ([`Search`]) no hit is missed. The result does not depend on the number of threads.
+    /// Points within 10⁻¹² to 4·10⁻¹² of the largest coordinate of a control point (and 10⁻¹⁵ of
+    /// the origin's) from the ray are on it. So faces leave no gaps between them, and a ray that is
+    /// tangent to the surface meets it, at a place that is uncertain by the square root of that.
+    /// Where a ray runs within the surface its first point there is found. A hit is the first but
+    /// for others nearer by less than 10⁻¹¹ of that. Where bounds are proven ([`Search`]) no hit is
+    /// missed. The result does not depend on the number of threads.
     ///
     /// # Errors
     /// [`ErrorKind::LengthMismatch`] for an output of another length than the rays;
     /// [`ErrorKind::NotFinite`] for a coordinate that is not finite, or a range with NaN;
     /// [`ErrorKind::ParameterOutOfRange`] for a direction of zero, or an origin 10¹⁰⁰ times as far
     /// away as any control point, all naming the ray;
-    /// [`ErrorKind::OutOfResources`], [`ErrorKind::Cancelled`]. What is in `out` then is
+    /// [`ErrorKind::MemoryCeiling`], [`ErrorKind::OutOfResources`], [`ErrorKind::Cancelled`]. What is in `out` then is
     /// unspecified.
     pub fn intersect(
         &self,
@@ -283,6 +286,10 @@ impl Search {
         check_lengths("rays", rays.len(), out.len())?;
         let found = self.each(context, rays, |inside, i, ray, queue| {
             let scaled = self.line(i, ray)?;
+            // Scaled, both ends may be one.
+            if ray.range[0] > ray.range[1] {
+                return Ok(None);
+            }
             cast(inside, scaled.line, queue)
         })?;
         let places = |meeting: &Meeting| (meeting.root, meeting.at);

@@ -58,14 +58,14 @@ pub(super) fn nearest(
         if bound > query.limit() {
             break;
         }
-        if visits.add(inside.context)? {
+        if visits.add(inside.context, queue)? {
             query.given_up = 2.0 * query.given_up.max(absolute);
         }
         match place {
             Place::Branch(branch) => query.branch(branch, queue)?,
             Place::First(part) => query.visit(&inside.parts[part as usize], queue)?,
             Place::Made(part) => {
-                let part = queue.take(part);
+                let part = queue.take(part)?;
                 query.visit(&part, queue)?;
             }
         }
@@ -80,7 +80,7 @@ impl Nearest<'_> {
             Some(Near { distance, .. }) => {
                 distance - self.given_up - self.absolute.max(RELATIVE * distance)
             }
-            None => self.reach - self.given_up,
+            None => self.reach + self.absolute - self.given_up,
         }
     }
 
@@ -104,7 +104,10 @@ impl Nearest<'_> {
 
     /// Takes a point if it is nearer than those before.
     fn offer(&mut self, part: &Part, at: [f64; 2], distance: f64) {
-        let nearer = self.best.as_ref().map_or(distance <= self.reach, |b| distance < b.distance);
+        let nearer = self
+            .best
+            .as_ref()
+            .map_or(distance <= self.reach + self.absolute, |b| distance < b.distance);
         if nearer {
             self.best = Some(Near { root: part.root, at: part.cell.place(at), distance });
         }

@@ -48,6 +48,8 @@ impl Ord for Entry {
 pub(super) struct Queue {
     heap: BinaryHeap<Entry>,
     made: Vec<Part>,
+    /// Those of them that were taken.
+    free: Vec<u32>,
     count: u64,
 }
 
@@ -56,6 +58,7 @@ impl Queue {
     pub(super) fn clear(&mut self) {
         self.heap.clear();
         self.made.clear();
+        self.free.clear();
     }
 
     pub(super) fn push(&mut self, bound: f64, place: Place) -> Result<()> {
@@ -67,15 +70,31 @@ impl Queue {
     }
 
     pub(super) fn push_part(&mut self, bound: f64, part: Part) -> Result<()> {
-        let place = Place::Made(self.made.len() as u32);
-        memory::extend(&mut self.made, [part])?;
-        self.push(bound, place)
+        let at = if let Some(at) = self.free.pop() {
+            self.made[at as usize] = part;
+            at
+        } else {
+            memory::extend(&mut self.made, [part])?;
+            self.made.len() as u32 - 1
+        };
+        self.push(bound, Place::Made(at))
     }
 
     /// A part that the query made, which nobody looks at again.
-    pub(super) fn take(&mut self, part: u32) -> Part {
+    ///
+    /// # Errors
+    /// [`ErrorKind::OutOfResources`].
+    pub(super) fn take(&mut self, part: u32) -> Result<Part> {
+        memory::extend(&mut self.free, [part])?;
         let part = &mut self.made[part as usize];
-        Part { form: std::mem::replace(&mut part.form, Form::Hull(Vec::new())), ..*part }
+        Ok(Part { form: std::mem::replace(&mut part.form, Form::Hull(Vec::new())), ..*part })
+    }
+
+    /// About how much memory it has.
+    pub(super) fn bytes(&self) -> u64 {
+        let Self { heap, made, free, .. } = self;
+        let bytes = heap.capacity() * size_of::<Entry>() + size_of_val(&made[..]);
+        (bytes + size_of_val(&free[..])) as u64
     }
 
     /// The smallest bound with its place.
