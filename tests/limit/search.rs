@@ -9,6 +9,7 @@ use carvel::limit::{
 use carvel::mesh::BuildOptions;
 use carvel::{Boundary, Context, Crease, ErrorKind, Mesh, Scheme};
 use std::sync::Arc;
+use std::time::Instant;
 
 /// How near to the truth a distance is, in units of coordinates of about 1.
 const EXACT: f64 = 1e-11;
@@ -326,7 +327,7 @@ fn rays_from_within_do_not_slip_through() {
 #[ignore = "takes minutes without optimisation"]
 fn thousands_of_rays_from_within_do_not_slip_through() {
     for case in cases().iter().filter(|case| closed(case) && !case.name.contains("torus")) {
-        let start = std::time::Instant::now();
+        let start = Instant::now();
         check_inside(case, 2_000, 16);
         println!("{}: {:?}", case.name, start.elapsed());
     }
@@ -732,4 +733,45 @@ fn surfaces_that_cannot_be_searched_are_refused() {
     assert_eq!(kind(refused, "cancelled"), ErrorKind::Cancelled);
     let refused = case.search.closest(&context, &[[0.0; 3]], 1.0, &mut [None]);
     assert_eq!(kind(refused, "cancelled"), ErrorKind::Cancelled);
+}
+
+/// What docs/search.md says of the time of queries.
+#[test]
+#[ignore = "prints times, of use with optimisation only"]
+fn queries_are_timed() {
+    let torus = || Shape::new(&bases::torus(16, 8));
+    let cube = || Shape::new(&bases::cube());
+    let (catmull_clark, three_point) = (Scheme::catmull_clark(), three_point());
+    for (name, shape, scheme) in [
+        ("torus, catmull-clark", torus(), &catmull_clark),
+        ("cube, catmull-clark", cube(), &catmull_clark),
+        ("torus, three-point", torus(), &three_point),
+        ("cube, three-point", cube(), &three_point),
+    ] {
+        let case = Case::new(name, shape, scheme);
+        let mut noise = Noise(3);
+        let anywhere: Vec<Point> = (0..500).map(|_| noise.point().map(|x| 1.5 * x)).collect();
+        let on = case.closest(&anywhere);
+        let nudged = |c: &Closest| [0, 1, 2].map(|k| c.point[k] + 1e-3 * noise.next());
+        let near: Vec<Point> = on.iter().map(nudged).collect();
+        let through = |(p, c): (&Point, &Closest)| Ray::new(*p, minus(c.point, *p));
+        let rays: Vec<Ray> = anywhere.iter().zip(&on).map(through).collect();
+        let micros = |work: &dyn Fn()| {
+            let mut times: Vec<f64> = (0..5)
+                .map(|_| {
+                    let start = Instant::now();
+                    work();
+                    start.elapsed().as_secs_f64() * 1e6 / anywhere.len() as f64
+                })
+                .collect();
+            times.sort_by(f64::total_cmp);
+            times[2]
+        };
+        println!(
+            "{name}: anywhere {:.1} us, near {:.1} us, rays {:.1} us",
+            micros(&|| drop(case.closest(&anywhere))),
+            micros(&|| drop(case.closest(&near))),
+            micros(&|| drop(case.hits(&rays))),
+        );
+    }
 }
