@@ -146,6 +146,17 @@ pub(super) fn check_capacity(capacity: u64, needed: u64, name: Name) -> Result<(
     ))
 }
 
+/// A count as the library has it; what does not fit is too many of anything.
+pub(super) fn size(count: u64) -> usize {
+    usize::try_from(count).unwrap_or(usize::MAX)
+}
+
+/// Checks where a list is to go before it is made, as far as that is possible.
+pub(super) fn check_list<T: Copy>(out: *mut T, capacity: u64, count: *mut u64) -> Result<()> {
+    Target::new((out, capacity), capacity.min(1), "out").span()?;
+    if count.is_null() { Ok(()) } else { check_pointer(count, "count") }
+}
+
 /// Answers a query in two calls: the count always, the list if there is room.
 ///
 /// # Safety
@@ -156,6 +167,7 @@ pub(super) unsafe fn list<T: Copy>(
     capacity: u64,
     count: *mut u64,
 ) -> Result<()> {
+    check_list(out, capacity, count)?;
     // What fits is what is written; too small a buffer is told after the count.
     let fits = (list.len() as u64).min(capacity);
     let out = Target::new((out, capacity), fits, "out");

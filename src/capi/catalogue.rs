@@ -1,7 +1,7 @@
 //! The catalogue of schemes of polygons: names, authors, parameters, and for which values of a
 //! parameter the schemes are smooth.
 
-use super::buffer::list;
+use super::buffer::{check_list, list};
 use super::guard::call;
 use super::mask::text_of;
 use super::status::{CARVEL_STATUS_TOO_LARGE, Fault, Result, carvel_status};
@@ -199,8 +199,8 @@ fn family(text: &str, parameter: &CStr) -> Result<AffineFamily> {
 }
 
 /// A number that the caller gave.
-fn exact(value: carvel_fraction) -> Result<Rational> {
-    Ok(from_fraction(value.exact()?))
+fn exact(value: carvel_fraction, name: &'static str) -> Result<Rational> {
+    Ok(from_fraction(value.exact(name)?))
 }
 
 /// An end of a range; 0/0 for what is not known.
@@ -249,10 +249,11 @@ pub unsafe extern "C" fn carvel_catalogue_ranges(
                 Error::new(ErrorKind::InvalidText, "the name is no UTF-8".to_owned())
             })?;
             let family = family(name, text_of(parameter, "parameter")?)?;
-            let (within, tolerance) = ([exact(low)?, exact(high)?], exact(tolerance)?);
-            let [low, high] = &within;
+            let (low, high) = (exact(low, "low")?, exact(high, "high")?);
+            let tolerance = exact(tolerance, "tolerance")?;
+            check_list(out, capacity, count)?;
             let k = continuity as usize;
-            let found = family.continuity_range(&context, k, [low, high], &tolerance)?;
+            let found = family.continuity_range(&context, k, [&low, &high], &tolerance)?;
             let found = found.iter().map(carvel_parameter_range::of).collect::<Result<Vec<_>>>()?;
             list(&found, out, capacity, count)
         })

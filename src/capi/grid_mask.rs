@@ -1,6 +1,6 @@
 //! `carvel_grid_mask`: a scheme of grids by any bivariate mask.
 
-use super::buffer::{Target, check_overlap, input};
+use super::buffer::{Name, Target, check_overlap, input, size};
 use super::guard::call;
 use super::mask::ends;
 use super::object::{destroy_function, object};
@@ -14,15 +14,11 @@ object!(carvel_grid_mask, GridMask);
 
 fn exact(coefficients: &[carvel_fraction]) -> Result<Vec<Rational>> {
     let mut all = memory::reserved(coefficients.len())?;
-    for coefficient in coefficients {
-        all.push(from_fraction(coefficient.exact()?));
+    for (i, coefficient) in coefficients.iter().enumerate() {
+        let name = Name { text: "coefficients", index: Some(i) };
+        all.push(from_fraction(coefficient.exact(name)?));
     }
     Ok(all)
-}
-
-/// A count as the library has it; what does not fit is too many of anything.
-pub(super) fn size(count: u64) -> usize {
-    usize::try_from(count).unwrap_or(usize::MAX)
 }
 
 #[unsafe(no_mangle)]

@@ -1,7 +1,7 @@
 //! `carvel_mask`: a scheme of polygons, what it makes of them and of grids, and what is proved
 //! of it.
 
-use super::buffer::{Target, check_overlap, check_pointer, list};
+use super::buffer::{Target, check_list, check_overlap, check_pointer, list, size};
 use super::guard::call;
 use super::object::{destroy_function, object};
 use super::status::{CARVEL_STATUS_TOO_LARGE, Fault, Result, carvel_status};
@@ -263,6 +263,7 @@ pub unsafe extern "C" fn carvel_mask_sample_limit(
     unsafe {
         call(error, |call| {
             let (mask, context) = (call.object(mask)?.stationary()?, call.context(context)?);
+            check_list(out, capacity, count)?;
             let place = Target::new((first, u64::from(!first.is_null())), 1, "first");
             let given = place.is_given().then(|| place.span()).transpose()?;
             let (lowest, samples) = sample_derivative(&context, mask, derivative as usize, levels)?;
@@ -297,8 +298,7 @@ pub unsafe extern "C" fn carvel_mask_counts(
         call(error, |call| {
             let mask = call.object(mask)?;
             check(counts)?;
-            let points = usize::try_from(points).unwrap_or(usize::MAX);
-            let (points, after) = mask.predict(points, ends(ends_before)?, steps)?;
+            let (points, after) = mask.predict(size(points), ends(ends_before)?, steps)?;
             let (ends, points) = (ends_number(after), points as u64);
             write(counts, &carvel_polygon_counts { ends, points, ..initial() })
         })
@@ -319,12 +319,11 @@ pub unsafe extern "C" fn carvel_mask_limit_counts(
         call(error, |call| {
             let mask = call.object(mask)?.stationary()?;
             check(counts)?;
-            let points = usize::try_from(points).unwrap_or(usize::MAX);
             let ends = ends(ends_before)?;
             let (points, after) = Polygon::<f64>::predict_limit(
                 &Context::serial(),
                 mask,
-                points,
+                size(points),
                 ends,
                 derivative as usize,
             )?;

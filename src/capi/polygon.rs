@@ -1,8 +1,8 @@
 //! What schemes of polygons make of points in the caller's memory: steps of polygons and grids,
 //! limits.
 
-use super::buffer::{check_overlap, check_pointer};
-use super::grid_mask::{carvel_grid_mask, size};
+use super::buffer::{check_overlap, check_pointer, size};
+use super::grid_mask::carvel_grid_mask;
 use super::guard::call;
 use super::mask::{carvel_mask, ends};
 use super::status::{

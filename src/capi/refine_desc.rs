@@ -89,13 +89,7 @@ impl<T: Scalar> RefineInput<T> {
         let attributes =
             unsafe { input(self.attributes, self.attribute_count, "input.attributes")? };
         let vertices = mesh.vertices() as u64;
-        let mut records = vec![self.positions.check(vertices, "input.positions".into())?];
-        if records[0].width != 3 {
-            return Err(Fault::new(
-                CARVEL_STATUS_LENGTH_MISMATCH,
-                format!("input.positions: the width is {}, not 3", records[0].width),
-            ));
-        }
+        let mut records = vec![self.positions.check_positions(vertices, "input.positions".into())?];
         for (i, attribute) in attributes.iter().enumerate() {
             let name = Name { text: "input.attributes", index: Some(i) };
             records.push(attribute.check(vertices, name)?);

@@ -1,6 +1,6 @@
 //! `carvel_scheme`: a subdivision scheme with its parameters.
 
-use super::buffer::{input, list};
+use super::buffer::{Name, input, list};
 use super::guard::call;
 use super::object::{destroy_function, object};
 use super::status::{Fault, Result, carvel_status};
@@ -73,8 +73,9 @@ impl From<Fraction> for carvel_fraction {
 }
 
 impl carvel_fraction {
-    pub(super) fn exact(self) -> Result<Fraction> {
-        Ok(Fraction::new(self.numerator, self.denominator)?)
+    pub(super) fn exact(self, name: impl Into<Name>) -> Result<Fraction> {
+        let made = Fraction::new(self.numerator, self.denominator);
+        Ok(made.map_err(|e| e.in_context(name.into()))?)
     }
 }
 
@@ -103,7 +104,8 @@ fn scheme(desc: &carvel_scheme_desc, passes: &[carvel_fraction]) -> Result<Schem
 }
 
 fn exact(passes: &[carvel_fraction]) -> Result<Vec<Fraction>> {
-    passes.iter().map(|t| t.exact()).collect()
+    let name = |i| Name { text: "passes", index: Some(i) };
+    passes.iter().enumerate().map(|(i, t)| t.exact(name(i))).collect()
 }
 
 /// The families that smooth by averaging, with a corner operator.
@@ -146,7 +148,7 @@ fn check_pass_count(count: u64) -> Result<()> {
 
 fn three_point_w(w: carvel_fraction) -> Result<Fraction> {
     const PAPER: carvel_fraction = carvel_fraction { numerator: 1, denominator: 32 };
-    if w == carvel_fraction::default() { PAPER.exact() } else { w.exact() }
+    if w == carvel_fraction::default() { PAPER.exact("w") } else { w.exact("w") }
 }
 
 fn corner_rule(rule: i32) -> Result<CornerRule> {

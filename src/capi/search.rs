@@ -3,7 +3,7 @@
 use super::buffer::{Span, Target, check_overlap, check_pointer, input};
 use super::guard::{Call, call};
 use super::object::{destroy_function, object};
-use super::status::{CARVEL_STATUS_LENGTH_MISMATCH, Fault, Result, carvel_status};
+use super::status::{Result, carvel_status};
 use super::values::ConstValues;
 use super::{carvel_context, carvel_error, carvel_sample, carvel_surface};
 use crate::base::{Context, NONE, Scalar, memory};
@@ -58,11 +58,7 @@ unsafe fn search<T: Scalar>(
     surface: &Arc<Surface>,
     positions: ConstValues<T>,
 ) -> Result<Search> {
-    let from = positions.check(surface.columns() as u64, "positions".into())?;
-    if from.width != 3 {
-        let message = format!("positions: the width is {}, not 3", from.width);
-        return Err(Fault::new(CARVEL_STATUS_LENGTH_MISMATCH, message));
-    }
+    let from = positions.check_positions(surface.columns() as u64, "positions".into())?;
     context.check_memory(from.copy_bytes::<T>())?;
     // SAFETY: the caller's contract.
     let positions = unsafe { from.read()? };

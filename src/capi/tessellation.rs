@@ -3,7 +3,7 @@
 use super::buffer::{Span, Target, check_overlap, check_pointer};
 use super::guard::call;
 use super::object::{destroy_function, object};
-use super::status::{CARVEL_STATUS_LENGTH_MISMATCH, Fault, Result, carvel_status};
+use super::status::{Fault, Result, carvel_status};
 use super::values::{ConstValues, Values};
 use super::versioned::{init_function, initial, read, versioned, write};
 use super::{carvel_context, carvel_error, carvel_sample, carvel_surface};
@@ -115,11 +115,7 @@ unsafe fn cut<T: Scalar>(
     positions: ConstValues<T>,
     options: &TessellateOptions,
 ) -> Result<Tessellation> {
-    let from = positions.check(surface.columns() as u64, "positions".into())?;
-    if from.width != WIDTH {
-        let message = format!("positions: the width is {}, not {WIDTH}", from.width);
-        return Err(Fault::new(CARVEL_STATUS_LENGTH_MISMATCH, message));
-    }
+    let from = positions.check_positions(surface.columns() as u64, "positions".into())?;
     context.check_memory(from.copy_bytes::<T>())?;
     // SAFETY: the caller's contract.
     let positions = unsafe { from.read()? };

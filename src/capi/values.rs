@@ -77,6 +77,16 @@ impl<T: Scalar> ConstValues<T> {
         let (count, width) = (self.count as usize, self.width as usize);
         Ok(Records { data: self.data, count, width, stride, name })
     }
+
+    /// Checks the positions of vertices.
+    pub(super) fn check_positions(&self, vertices: u64, name: Name) -> Result<Records<*const T>> {
+        let records = self.check(vertices, name)?;
+        if records.width == 3 {
+            return Ok(records);
+        }
+        let message = format!("{name}: the width is {}, not 3", records.width);
+        Err(Fault::new(CARVEL_STATUS_LENGTH_MISMATCH, message))
+    }
 }
 
 impl<T: Scalar> Values<T> {

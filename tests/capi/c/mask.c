@@ -252,6 +252,7 @@ static void check_bivariate(void)
     CHECK_STATUS(CARVEL_STATUS_NULL_POINTER, CREATE(NULL, 25, 5, 2, 0));
     list[3].denominator = 0;
     CHECK_STATUS(CARVEL_STATUS_INVALID_NUMBER, CREATE(list, 25, 5, 2, 0));
+    CHECK(strstr(carvel_error_message(failure), "coefficients[3]") != NULL);
     CHECK_STATUS(CARVEL_STATUS_NULL_POINTER,
                  carvel_grid_mask_create(list, 25, 5, 2, 2, 0, 0, NULL, failure));
 #undef CREATE
@@ -530,6 +531,9 @@ static void check_ranges(void)
     CHECK_STATUS(CARVEL_STATUS_INVALID_NUMBER, RANGES("\xff", "w", 0, low, close, found, 4));
     CHECK_STATUS(CARVEL_STATUS_INVALID_NUMBER,
                  RANGES("three-point", "w", 0, none, close, found, 4));
+    CHECK(strncmp(carvel_error_message(failure), "low: ", 5) == 0);
+    /* Before the search, even if it would find nothing. */
+    CHECK_STATUS(CARVEL_STATUS_NULL_POINTER, RANGES("three-point", "w", 4, low, close, NULL, 4));
     CHECK_STATUS(CARVEL_STATUS_NULL_POINTER, RANGES(NULL, "w", 0, low, close, found, 4));
     CHECK_STATUS(CARVEL_STATUS_NULL_POINTER, RANGES("three-point", NULL, 0, low, close, found, 4));
     CHECK_STATUS(CARVEL_STATUS_NULL_POINTER, RANGES("three-point", "w", 3, low, close, NULL, 4));
