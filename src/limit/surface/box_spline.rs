@@ -6,89 +6,9 @@
 
 use super::lanes::{Block, ZERO, plus};
 use crate::base::NONE;
-use crate::base::simd::InnerLoop;
+use crate::base::simd::{InnerLoop, Number};
 use crate::mesh::{INFINITE, Mesh};
 use crate::scheme::Scheme;
-
-/// A value at each of the three corners, and its derivatives: `R` records of them, in the order
-/// of [`super::evaluation::PARTIALS`]. The fourth is there for the sake of the processor.
-#[derive(Clone, Copy)]
-struct Jet<const R: usize>([[f64; 4]; R]);
-
-impl<const R: usize> Jet<R> {
-    /// Numbers that are the same everywhere.
-    #[inline(always)]
-    fn constant(x: f64) -> Self {
-        let mut jet = Self([[0.0; 4]; R]);
-        jet.0[0] = [x; 4];
-        jet
-    }
-
-    /// The barycentric coordinates of the corners 0, 1, 2.
-    #[inline(always)]
-    fn coordinates(u: f64, v: f64) -> Self {
-        let mut jet = Self([[0.0; 4]; R]);
-        jet.0[0] = [1.0 - u - v, u, v, 0.0];
-        if R >= 3 {
-            jet.0[1] = [-1.0, 1.0, 0.0, 0.0];
-            jet.0[2] = [-1.0, 0.0, 1.0, 0.0];
-        }
-        jet
-    }
-
-    /// What the next corner has.
-    #[inline(always)]
-    fn next(self) -> Self {
-        let mut next = self;
-        for [a, b, c, _] in &mut next.0 {
-            (*a, *b, *c) = (*b, *c, *a);
-        }
-        next
-    }
-
-    #[inline(always)]
-    fn plus(self, other: Self) -> Self {
-        let mut sum = self;
-        for (record, other) in sum.0.iter_mut().zip(other.0) {
-            for k in 0..4 {
-                record[k] += other[k];
-            }
-        }
-        sum
-    }
-
-    #[inline(always)]
-    fn scaled(self, factor: f64) -> Self {
-        let mut scaled = self;
-        for record in &mut scaled.0 {
-            for k in 0..4 {
-                record[k] *= factor;
-            }
-        }
-        scaled
-    }
-
-    /// By Leibniz's rule.
-    #[inline(always)]
-    fn times(self, other: Self) -> Self {
-        let (a, b) = (&self.0, &other.0);
-        let mut product = Self([[0.0; 4]; R]);
-        for k in 0..4 {
-            product.0[0][k] = a[0][k] * b[0][k];
-            for by in 1..R.min(3) {
-                product.0[by][k] = a[by][k] * b[0][k] + a[0][k] * b[by][k];
-            }
-            for by in 3..R {
-                let [one, other] = [[1, 1], [1, 2], [2, 2]][by - 3];
-                product.0[by][k] = a[by][k] * b[0][k]
-                    + a[one][k] * b[other][k]
-                    + a[other][k] * b[one][k]
-                    + a[0][k] * b[by][k];
-            }
-        }
-        product
-    }
-}
 
 /// A regular triangle with its twelve points at (u, v).
 pub(super) struct Triangle<'a, const R: usize> {
@@ -105,7 +25,8 @@ impl<const R: usize> InnerLoop for Triangle<'_, R> {
 
     #[inline(always)]
     fn run(self) {
-        let weights = taps::<R>(self.at[0], self.at[1]);
+        let mut weights = [[0.0; 12]; R];
+        taps::<f64, R>(self.at[0], self.at[1], |record, i, weight| weights[record][i] = weight);
         for block in 0..self.blocks {
             let mut sums = [ZERO; R];
             for (i, point) in self.points.chunks_exact(self.blocks).take(12).enumerate() {
@@ -120,111 +41,99 @@ impl<const R: usize> InnerLoop for Triangle<'_, R> {
     }
 }
 
-/// The same for points of one block.
-#[inline(always)]
-pub(super) fn triangle<const R: usize>(at: [f64; 2], points: &[Block; 12]) -> [Block; R] {
-    let weights = taps::<R>(at[0], at[1]);
-    let mut sums = [ZERO; R];
-    for i in 0..12 {
-        for record in 0..R {
-            sums[record] = plus(sums[record], weights[record][i], &points[i]);
-        }
-    }
-    sums
-}
+/// A polynomial in the coordinates a, b, c of a corner and the two after it, its derivatives by
+/// them as if they were independent, and those by aa, ab, ac, bb, bc, cc.
+type Polynomial<N> = [N; 10];
 
-/// A polynomial in the coordinates a, b, c of a corner and the two after it, and its derivatives
-/// by them as if they were independent.
-type Polynomial = [f64; 4];
+/// Where it has its second derivative by two coordinates.
+const SECOND: [[usize; 3]; 3] = [[4, 5, 6], [5, 7, 8], [6, 8, 9]];
 
 /// Twelve times the weights of a corner, the vertex across the edge opposite to it, and the two
 /// beside it on the sides of b and c. What is not asked for the compiler leaves out.
+///
+/// With a + b + c = 1, q = bc and p = b + c they are 1 + 4a + 6a² − 4a³ − a⁴ +
+/// 2q(1 + 4a + a² + q), p³(1 + a) + 2q(p² + q), a³(a + 2b) and a³(a + 2c).
 #[inline(always)]
-fn polynomials(a: f64, b: f64, c: f64) -> [Polynomial; 4] {
+fn polynomials<N: Number>(a: N, b: N, c: N) -> [Polynomial<N>; 4] {
+    let zero = N::all(0.0);
     let (aa, q, p) = (a * a, b * c, b + c);
     let (aaa, pp) = (aa * a, p * p);
-    let even = 1.0 + 4.0 * a + aa;
-    let by_both = 2.0 * even + 4.0 * q;
+    let even = a * 4.0 + 1.0 + aa;
+    let by_q = even * 2.0 + q * 4.0;
+    let by_a = (a + 2.0) * 4.0;
     let corner = [
-        even + 5.0 * aa - aaa * (a + 4.0) + 2.0 * q * (even + q),
-        4.0 + 12.0 * (a - aa) - 4.0 * aaa + 4.0 * q * (2.0 + a),
-        by_both * c,
-        by_both * b,
+        even + aa * 5.0 - aaa * (a + 4.0) + q * 2.0 * (even + q),
+        (a - aa) * 12.0 + 4.0 - aaa * 4.0 + q * by_a,
+        by_q * c,
+        by_q * b,
+        (a * 2.0 + aa + -1.0) * -12.0 + q * 4.0,
+        c * by_a,
+        b * by_a,
+        c * c * 4.0,
+        by_q + q * 4.0,
+        b * b * 4.0,
     ];
-    let (ppp, by_q) = (pp * p, 2.0 * pp + 4.0 * q);
-    let by_p = 3.0 * pp * (1.0 + a) + 4.0 * q * p;
-    let across = [ppp * (1.0 + a) + 2.0 * q * (pp + q), ppp, by_p + by_q * c, by_p + by_q * b];
+    let (ppp, by_q) = (pp * p, pp * 2.0 + q * 4.0);
+    let by_p = pp * 3.0 * (a + 1.0) + q * 4.0 * p;
+    let by_pp = p * 6.0 * (a + 1.0) + q * 4.0;
+    let across = [
+        ppp * (a + 1.0) + q * 2.0 * (pp + q),
+        ppp,
+        by_p + by_q * c,
+        by_p + by_q * b,
+        zero,
+        pp * 3.0,
+        pp * 3.0,
+        by_pp + c * 4.0 * (p * 2.0 + c),
+        by_pp + pp * 6.0 + q * 8.0,
+        by_pp + b * 4.0 * (p * 2.0 + b),
+    ];
+    let (by_side, by_both) = (aaa * 2.0, aa * 6.0);
+    let [(first, by_first, by_firsts), (last, by_last, by_lasts)] =
+        [beside(a, aa, aaa, b), beside(a, aa, aaa, c)];
     [
         corner,
         across,
-        [aaa * (a + 2.0 * b), aa * (4.0 * a + 6.0 * b), 2.0 * aaa, 0.0],
-        [aaa * (a + 2.0 * c), aa * (4.0 * a + 6.0 * c), 0.0, 2.0 * aaa],
+        [first, by_first, by_side, zero, by_firsts, by_both, zero, zero, zero, zero],
+        [last, by_last, zero, by_side, by_lasts, zero, by_both, zero, zero, zero],
     ]
 }
 
-/// Weights of the twelve points for the position and first derivatives, in their order.
+/// a³(a + 2b) and its derivatives by a and aa.
 #[inline(always)]
-fn first_taps<const R: usize>(u: f64, v: f64) -> [[f64; 12]; R] {
-    let coordinates = [1.0 - u - v, u, v];
-    let mut taps = [[0.0; 12]; R];
+fn beside<N: Number>(a: N, aa: N, aaa: N, b: N) -> (N, N, N) {
+    (aaa * (a + b * 2.0), aa * (a * 4.0 + b * 6.0), a * 12.0 * (a + b))
+}
+
+/// Hands over weights of the twelve points, in the order of [`points`], for `R` records, by record
+/// and point: the position and derivatives by u and v, at barycentric coordinates
+/// (1 − u − v, u, v).
+#[inline(always)]
+pub(super) fn taps<N: Number, const R: usize>(u: N, v: N, mut take: impl FnMut(usize, usize, N)) {
+    let coordinates = [N::all(1.0) - u - v, u, v];
     for k in 0..3 {
         let [a, b, c] = [coordinates[k], coordinates[(k + 1) % 3], coordinates[(k + 2) % 3]];
         let of = polynomials(a, b, c);
-        // The vertex across the edge after the corner after this one.
-        let places = [k, 3 + (k + 1) % 3, 6 + k, 9 + k];
-        for i in 0..4 {
-            taps[0][places[i]] = of[i][0] * (1.0 / 12.0);
+        // What is across the edge opposite to a corner follows the corner after it.
+        let points = [k, 3 + (k + 1) % 3, 6 + k, 9 + k];
+        // The three coordinates as the corner counts them.
+        let [o, x, y] = [(3 - k) % 3, (4 - k) % 3, (5 - k) % 3];
+        for kind in 0..4 {
+            let (of, point) = (&of[kind], points[kind]);
+            take(0, point, of[0] * (1.0 / 12.0));
             if R >= 3 {
-                // Those by the three coordinates in their own order.
-                let one = of[i][1 + (3 - k) % 3];
-                let two = of[i][1 + (4 - k) % 3];
-                let three = of[i][1 + (5 - k) % 3];
-                taps[1][places[i]] = (two - one) * (1.0 / 12.0);
-                taps[2][places[i]] = (three - one) * (1.0 / 12.0);
+                take(1, point, (of[1 + x] - of[1 + o]) * (1.0 / 12.0));
+                take(2, point, (of[1 + y] - of[1 + o]) * (1.0 / 12.0));
+            }
+            if R >= 6 {
+                let (first, by_x, by_y) = (of[SECOND[o][o]], of[SECOND[o][x]], of[SECOND[o][y]]);
+                let [xx, xy, yy] = [of[SECOND[x][x]], of[SECOND[x][y]], of[SECOND[y][y]]];
+                take(3, point, (xx - by_x * 2.0 + first) * (1.0 / 12.0));
+                take(4, point, (xy - by_x - by_y + first) * (1.0 / 12.0));
+                take(5, point, (yy - by_y * 2.0 + first) * (1.0 / 12.0));
             }
         }
     }
-    taps
-}
-
-/// Weights of the twelve points, in the order of [`points`], for the position and derivatives by
-/// u and v, at barycentric coordinates (1 − u − v, u, v).
-///
-/// For a corner with coordinate a, the others being b and c: 12 times its weight is
-/// 1 + 4a + 6a² − 4a³ − a⁴ + 2bc(1 + 4a + a² + bc); of the vertex across the edge between the
-/// coordinates b and c it is p³(1 + a) + 2bc(p² + bc) with p = b + c; and beside a corner, on the
-/// side of b, a³(a + 2b).
-#[inline(always)]
-fn taps<const R: usize>(u: f64, v: f64) -> [[f64; 12]; R] {
-    let mut taps = first_taps::<R>(u, v);
-    if R <= 3 {
-        return taps;
-    }
-    let one = Jet::<R>::constant(1.0);
-    let a = Jet::coordinates(u, v);
-    let (b, c) = (a.next(), a.next().next());
-    let (square, both, sum) = (a.times(a), b.times(c), b.plus(c));
-    let cube = a.times(square);
-    let even = one.plus(a.scaled(4.0)).plus(square);
-    let corner = even
-        .plus(square.scaled(5.0))
-        .plus(cube.times(a.plus(one.scaled(4.0))).scaled(-1.0))
-        .plus(both.times(even.plus(both)).scaled(2.0));
-    let opposite = sum.times(sum);
-    let across =
-        opposite.times(sum.times(one.plus(a))).plus(both.times(opposite.plus(both)).scaled(2.0));
-    // Across the edge after each corner, which the corner before it is opposite to.
-    let across = across.next().next();
-    let beside = [cube.times(a.plus(b.scaled(2.0))), cube.times(a.plus(c.scaled(2.0)))];
-    for record in 3..R {
-        for k in 0..3 {
-            taps[record][k] = corner.0[record][k] * (1.0 / 12.0);
-            taps[record][3 + k] = across.0[record][k] * (1.0 / 12.0);
-            taps[record][6 + k] = beside[0].0[record][k] * (1.0 / 12.0);
-            taps[record][9 + k] = beside[1].0[record][k] * (1.0 / 12.0);
-        }
-    }
-    taps
 }
 
 /// Vertices with factors.

@@ -97,9 +97,14 @@ impl Kind {
     /// The number of the part of a cell that a point lies in, and a point inside that part.
     #[inline(always)]
     pub(super) fn part(self, at: [f64; 2]) -> (usize, [f64; 2]) {
+        Self::part_of(self == Self::Triangle, at)
+    }
+
+    /// The same for a triangle or any other cell.
+    #[inline(always)]
+    pub(super) fn part_of(is_triangle: bool, at: [f64; 2]) -> (usize, [f64; 2]) {
         let along = f64::from(PARTS_ALONG);
         let [mut i, j] = at.map(|x| ((along * x) as u32).min(PARTS_ALONG - 1));
-        let is_triangle = self == Self::Triangle;
         if is_triangle {
             // On the side s + t = 1.
             i = i.min(PARTS_ALONG - 1 - j);

@@ -89,8 +89,17 @@ impl Patches<'_> {
         let mut origin: &[Block] = &[];
         match &self.nodes[start.node as usize] {
             Node::Split { .. } => {
-                let (place, at) =
-                    self.arrive(|| *cell, start, width, out.len() == width, scratch)?;
+                let root = match scratch.memo.find(start.corner) {
+                    Some(root) => root,
+                    None => self.root(cell, start, scratch)?,
+                };
+                let memo = &mut scratch.memo;
+                let (part, inside) = memo.root(root).kind.part(start.at);
+                let place = match memo.part(root, part) {
+                    Some(place) => place,
+                    None => self.enter(root, part, inside, width, memo)?,
+                };
+                let (place, at) = self.arrive(place, start.at, width, out.len() == width, memo)?;
                 let place = scratch.memo.place(place);
                 let points;
                 (points, origin) = scratch.memo.points(place, blocks);
@@ -113,28 +122,19 @@ impl Patches<'_> {
         finish(jacobian, width, origin, &mut scratch.sums, out)
     }
 
-    /// From the first cell of a sample down to a regular one, and where in it; or to one whose
+    /// From the place of a part to a regular cell, and where in it a point of the first cell is; or to one whose
     /// points are one, without.
-    pub(super) fn arrive<'a, T: Scalar>(
+    #[inline(always)]
+    pub(super) fn arrive(
         &self,
-        cell: impl FnOnce() -> Cell<'a, T>,
-        start: &Start,
+        place: u32,
+        at: [f64; 2],
         width: usize,
         position_only: bool,
-        scratch: &mut Scratch,
+        memo: &mut Memo,
     ) -> Result<(u32, Option<[f64; 2]>)> {
-        let root = match scratch.memo.find(start.corner) {
-            Some(root) => root,
-            None => self.root(&cell(), start, scratch)?,
-        };
-        let memo = &mut scratch.memo;
-        let (part, inside) = memo.root(root).kind.part(start.at);
-        let place = match memo.part(root, part) {
-            Some(place) => place,
-            None => self.enter(root, part, inside, width, memo)?,
-        };
         let here = memo.place(place);
-        let at = here.map.apply(start.at);
+        let at = here.map.apply(at);
         if here.kind.is_none() {
             return Ok((place, Some(at)));
         }
@@ -143,7 +143,7 @@ impl Patches<'_> {
 
     /// Remembers the first cell of a corner.
     #[cold]
-    fn root<T: Scalar>(
+    pub(super) fn root<T: Scalar>(
         &self,
         cell: &Cell<'_, T>,
         start: &Start,
@@ -160,7 +160,7 @@ impl Patches<'_> {
     /// The place that holds all of a part of a first cell. It is found from a point inside, not
     /// from whichever sample came first, which may lie between two parts.
     #[cold]
-    fn enter(
+    pub(super) fn enter(
         &self,
         root: u32,
         part: usize,

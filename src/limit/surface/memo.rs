@@ -68,6 +68,7 @@ pub(super) struct Memo {
 
 impl Memo {
     /// The number of the first cell of a corner.
+    #[inline(always)]
     pub(super) fn find(&self, corner: u32) -> Option<u32> {
         self.by_corner.get(&corner).copied()
     }
@@ -95,19 +96,26 @@ impl Memo {
     }
 
     /// The points of a place, and the origin that they are to be added to.
+    #[inline(always)]
     pub(super) fn points(&self, place: &Place, blocks: usize) -> (&[Block], &[Block]) {
         let (start, count) = (place.start as usize, place.points as usize);
         let (origin, points) = self.records[start..][..(1 + count) * blocks].split_at(blocks);
         (points, origin)
     }
 
-    /// Asks for a place's points ahead.
+    /// Asks for a place ahead.
     #[inline(always)]
-    pub(super) fn ask_ahead(&self, place: &Place, blocks: usize) {
-        let all = (1 + place.points as usize) * blocks;
+    pub(super) fn ask_place(&self, place: u32) {
+        fetch_ahead(&self.places, place as usize);
+    }
+
+    /// Asks for a place's points ahead, `N` of a block each.
+    #[inline(always)]
+    pub(super) fn ask_points<const N: usize>(&self, place: u32) {
+        let start = self.place(place).start as usize;
         // Two of these blocks are as much as comes at once.
-        for record in self.records[place.start as usize..][..all].iter().step_by(2) {
-            fetch_ahead(std::slice::from_ref(record), 0);
+        for record in (0..=N).step_by(2) {
+            fetch_ahead(&self.records, start + record);
         }
     }
 

@@ -430,6 +430,22 @@ impl Surface {
     /// The same, but for the node and its points.
     #[inline(always)]
     fn place(&self, sample: &Sample, start: &mut Start) -> Result<()> {
+        let (corner, sectors) = self.corner(sample)?;
+        let at = [sample.u, sample.v];
+        let (corner, at, map) = match self.method {
+            Method::Dual if sectors == 1 => {
+                let (place, map) = cell::quarter(at);
+                (corner + place as u32, map.apply(at), map)
+            }
+            _ => (corner, at, cell::IDENTITY),
+        };
+        (start.corner, start.at, start.jacobian) = (corner, at, map.linear);
+        Ok(())
+    }
+
+    /// The corner of a sample's sector, and how many sectors its face has.
+    #[inline(always)]
+    fn corner(&self, sample: &Sample) -> Result<(u32, usize)> {
         let &Sample { face, sector, u, v } = sample;
         let is_loop = self.method == Method::Loop;
         let within = (0.0..=1.0).contains(&u) && (0.0..=1.0).contains(&v);
@@ -441,19 +457,10 @@ impl Surface {
         if sector as usize >= sectors {
             return Err(self.outside(sample));
         }
-        if self.holes.binary_search(&face).is_ok() {
+        if !self.holes.is_empty() && self.holes.binary_search(&face).is_ok() {
             return Err(Error::new(ErrorKind::Unsupported, "the face is a hole"));
         }
-        let corner = corners.start + sector;
-        let (corner, at, map) = match self.method {
-            Method::Dual if sectors == 1 => {
-                let (place, map) = cell::quarter([u, v]);
-                (corner + place as u32, map.apply([u, v]), map)
-            }
-            _ => (corner, [u, v], cell::IDENTITY),
-        };
-        (start.corner, start.at, start.jacobian) = (corner, at, map.linear);
-        Ok(())
+        Ok((corners.start + sector, sectors))
     }
 
     /// What is wrong with a sample that lies nowhere.

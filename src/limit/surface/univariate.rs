@@ -9,6 +9,7 @@
 //! (de Boor 1972, uniform knots).
 
 use super::digits::Digits;
+use crate::base::simd::Number;
 use crate::base::{Error, ErrorKind, Result};
 use crate::scheme::{Method, Scheme};
 
@@ -82,7 +83,7 @@ impl Univariate {
             // Loops of a known length are unrolled.
             Self::Spline(2) => spline(2, x, &mut taps[..3 * orders]),
             Self::Spline(3) => {
-                let cubic = cubic::<ORDERS>(x);
+                let cubic = cubic::<f64, ORDERS>(x);
                 taps.copy_from_slice(&cubic.as_flattened()[..4 * orders]);
             }
             Self::Spline(4) => spline(4, x, &mut taps[..5 * orders]),
@@ -120,20 +121,21 @@ fn differences(taps: &mut [f64]) {
 /// `ORDERS`. Each is a short polynomial in the distance from the end that it vanishes at or
 /// is next to, so that what is zero there is so exactly, and both ends mirror each other.
 #[inline(always)]
-pub(super) fn cubic<const ORDERS: usize>(x: f64) -> [[f64; 4]; ORDERS] {
-    let y = 1.0 - x;
+pub(super) fn cubic<N: Number, const ORDERS: usize>(x: N) -> [[N; 4]; ORDERS] {
+    let zero = N::all(0.0);
+    let y = N::all(1.0) - x;
     let [xx, yy] = [x * x, y * y];
-    let mut taps = [[0.0; 4]; ORDERS];
+    let mut taps = [[zero; 4]; ORDERS];
     for order in 0..ORDERS {
         taps[order] = match order {
             0 => [
                 yy * y * (1.0 / 6.0),
-                xx * (0.5 * x - 1.0) + 2.0 / 3.0,
-                yy * (0.5 * y - 1.0) + 2.0 / 3.0,
+                xx * (x * 0.5 + -1.0) + 2.0 / 3.0,
+                yy * (y * 0.5 + -1.0) + 2.0 / 3.0,
                 xx * x * (1.0 / 6.0),
             ],
-            1 => [-0.5 * yy, x * (1.5 * x - 2.0), -(y * (1.5 * y - 2.0)), 0.5 * xx],
-            _ => [y, 3.0 * x - 2.0, 3.0 * y - 2.0, x],
+            1 => [yy * -0.5, x * (x * 1.5 + -2.0), y * (y * -1.5 + 2.0), xx * 0.5],
+            _ => [y, x * 3.0 + -2.0, y * 3.0 + -2.0, x],
         };
     }
     taps
