@@ -48,6 +48,15 @@ fn set_place(places: &mut Places, i: usize, at: [f64; 2]) {
     (s[i % GROUP], t[i % GROUP]) = (at[0], at[1]);
 }
 
+/// Asks for so many elements ahead, of which one may be as large as what comes at once, or less.
+#[inline(always)]
+fn ask_bytes<T>(list: &[T], first: usize, count: usize) {
+    const LINE: usize = 64;
+    for element in (first..first + count).step_by((LINE / size_of::<T>()).max(1)) {
+        fetch_ahead(list, element);
+    }
+}
+
 impl Surface {
     /// Evaluates samples in order; one that fails ends it.
     pub(super) fn batch<T: Scalar, const R: usize>(
@@ -99,8 +108,11 @@ impl Surface {
         let record = R * WIDTH;
         let (mut ways, mut places) = ([NO_WAY; AHEAD], [[[0.0; GROUP]; 2]; AHEAD / GROUP]);
         let (mut weights, mut sums) = (W::NONE, [[ZERO; R]; GROUP]);
+        let all = samples;
         let groups = samples.chunks(AHEAD).zip(out.chunks_mut(AHEAD * record));
         for (group, (samples, out)) in groups.enumerate() {
+            ask_bytes(all, (group + 1) * AHEAD, AHEAD);
+            ask_bytes(out, AHEAD * record, AHEAD * record);
             let name = |(i, error): Failed| (group * AHEAD + i, named(error, &samples[i]));
             let (age, mut ready, mut failed) = (scratch.memo.age(), samples.len(), None);
             let mut after = |done: Step| {
@@ -150,9 +162,9 @@ impl Surface {
 
     /// Where samples begin.
     fn start_all(&self, samples: &[Sample], ways: &mut [Way], places: &mut Places) -> Step {
-        let (mut done, mut started) = (Ok(()), samples.len());
+        let (mut done, mut started, faces) = (Ok(()), samples.len(), self.mesh.faces());
         for (i, (way, sample)) in ways.iter_mut().zip(samples).enumerate() {
-            match self.corner(sample) {
+            match self.corner(sample, faces) {
                 Ok((corner, _)) => {
                     way.corner = corner;
                     set_place(places, i, [sample.u, sample.v]);

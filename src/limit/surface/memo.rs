@@ -78,6 +78,7 @@ impl Memo {
     }
 
     /// The place of a part of a first cell, once it has been made.
+    #[inline(always)]
     pub(super) fn part(&self, root: u32, part: usize) -> Option<u32> {
         Some(self.roots[root as usize].parts[part]).filter(|&place| place != NONE)
     }

@@ -430,7 +430,7 @@ impl Surface {
     /// The same, but for the node and its points.
     #[inline(always)]
     fn place(&self, sample: &Sample, start: &mut Start) -> Result<()> {
-        let (corner, sectors) = self.corner(sample)?;
+        let (corner, sectors) = self.corner(sample, self.mesh.faces())?;
         let at = [sample.u, sample.v];
         let (corner, at, map) = match self.method {
             Method::Dual if sectors == 1 => {
@@ -443,13 +443,14 @@ impl Surface {
         Ok(())
     }
 
-    /// The corner of a sample's sector, and how many sectors its face has.
+    /// The corner of a sample's sector, and how many sectors its face has. The number of faces is
+    /// counted once for many samples.
     #[inline(always)]
-    fn corner(&self, sample: &Sample) -> Result<(u32, usize)> {
+    fn corner(&self, sample: &Sample, faces: usize) -> Result<(u32, usize)> {
         let &Sample { face, sector, u, v } = sample;
         let is_loop = self.method == Method::Loop;
         let within = (0.0..=1.0).contains(&u) && (0.0..=1.0).contains(&v);
-        if face as usize >= self.mesh.faces() || !within || (is_loop && u + v > 1.0) {
+        if face as usize >= faces || !within || (is_loop && u + v > 1.0) {
             return Err(self.outside(sample));
         }
         let corners = self.mesh.layout.face(face);
