@@ -64,7 +64,7 @@ impl Extent {
         let least = ends.least();
         if points < least {
             let message =
-                format!("{points} points: a polygon ({}) has {least} at least", ends.name());
+                format!("a polygon ({}) needs {least} or more points, not {points}", ends.name());
             return Err(Error::new(ErrorKind::LengthMismatch, message));
         }
         let too_large = || Error::new(ErrorKind::TooLarge, format!("{points} points and more"));
@@ -85,7 +85,7 @@ impl Extent {
         let first = reaches().map(|(e, (low, _))| m * (-low - 1) + e + 1).max().unwrap_or(0);
         let end = reaches().map(|(e, (_, high))| m * (n - high) + e).min().unwrap_or(0);
         if end <= first {
-            let message = format!("{n} points: too few for a rule that stays between the ends");
+            let message = format!("too few points, {n}, for a rule that stays between the ends");
             return Err(Error::new(ErrorKind::LengthMismatch, message));
         }
         Ok(Self { first, made: (end - first) as usize, ends: Ends::Dropped })

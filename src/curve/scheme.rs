@@ -38,7 +38,9 @@ impl CurveScheme {
         let one = |default: f64| match numbers(list)?[..] {
             [] => Ok(default),
             [one] => Ok(one),
-            ref more => Err(out_of_range(format!("{} parameters: {name} has 1", more.len()))),
+            ref more => {
+                Err(out_of_range(format!("too many parameters, {}: {name} has 1", more.len())))
+            }
         };
         match name.trim_end() {
             "tension-four-point" => match numbers(list)? {

@@ -106,7 +106,10 @@ impl Family {
     fn completed(&self, parameters: &[Rational]) -> Result<Vec<Rational>> {
         if parameters.len() > self.parameters.len() {
             let (given, most) = (parameters.len(), self.parameters.len());
-            return Err(out_of_range(format!("{given} parameters: {} has {most}", self.name)));
+            return Err(out_of_range(format!(
+                "too many parameters, {given}: {} has {most}",
+                self.name
+            )));
         }
         let missing = &self.parameters[parameters.len()..];
         let defaults = missing.iter().map(|parameter| rational::parse(parameter.default));
