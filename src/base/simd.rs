@@ -125,7 +125,7 @@ mod avx {
         _mm256_sub_pd,
     };
 
-    /// What only [`super::with_quads`] names, where the processor has AVX2.
+    /// What only `quads_with_avx2` names, which runs where the processor has AVX2.
     #[derive(Clone, Copy)]
     pub(super) struct Register(__m256d);
 

@@ -775,3 +775,28 @@ fn queries_are_timed() {
         );
     }
 }
+
+/// At a small angle a root may be far beyond the end of a range, and the surface still near to it.
+#[test]
+fn ends_of_ranges_meet_what_is_near() {
+    let mut grid = bases::grid(4, 3);
+    for p in &mut grid.positions {
+        p[2] = 0.0;
+    }
+    let scheme = Scheme::catmull_clark().with_boundary(Boundary::EdgeAndCorner);
+    let plane = Case::new("plane", Shape::new(&grid), &scheme);
+    let [x, y, _] = plane.point(Sample { face: 5, sector: 0, u: 0.3, v: 0.4 });
+    for slope in [1e-3, 1e-5, 1e-6, 1e-8] {
+        for lift in [1e-13, -1e-13] {
+            // It has come through, or would later on.
+            let on = Ray::new([x, y, lift], [1.0, 0.1, slope]);
+            for range in [[0.0, f64::INFINITY], [f64::NEG_INFINITY, 0.0], [0.0, 0.0]] {
+                let ray = Ray { range, ..on };
+                let hit = plane.hits(&[ray])[0].unwrap_or_else(|| panic!("{ray:?}"));
+                assert!((hit.point[0] - x - hit.t).abs() < EXACT, "{ray:?}: {hit:?}");
+            }
+            let apart = Ray { origin: [x, y, 1e3 * lift], range: [0.0, 0.0], ..on };
+            assert_eq!(plane.hits(&[apart])[0], None);
+        }
+    }
+}

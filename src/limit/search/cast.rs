@@ -285,7 +285,27 @@ impl Cast<'_> {
         })?
         .at;
         let q = self.seen_at(part, at)?;
-        if q.truncate().abs().max_element() <= 2.0 * self.line.tolerance {
+        let near = 2.0 * self.line.tolerance;
+        if q.truncate().abs().max_element() > near {
+            return Ok(());
+        }
+        let [first, last] = self.line.range;
+        if q.z >= first - near && q.z <= last + near {
+            self.offer(part, at, q.z);
+            return Ok(());
+        }
+        // At a small angle the ray is near for long, and may be so where its range ends.
+        let end = self.line.origin + q.z.clamp(first, last) * self.line.along;
+        at = minimise(fit.shape, at, |at| {
+            let Jet([q, s, t, ..]) = point(at)?;
+            let off = q - end;
+            let first = [s.dot(s), s.dot(t), t.dot(t)];
+            Ok((off.length_squared(), [off.dot(s), off.dot(t)], first, [0.0; 3]))
+        })?
+        .at;
+        let q = self.seen_at(part, at)?;
+        let beyond = q.z - q.z.clamp(first, last);
+        if q.truncate().abs().max_element().max(beyond.abs()) <= near {
             self.offer(part, at, q.z);
         }
         Ok(())
@@ -318,7 +338,7 @@ impl Cast<'_> {
 
     /// Takes a point on the ray if that is within its range, and the first.
     fn offer(&mut self, part: &Part, at: [f64; 2], z: f64) {
-        let ([first, _], limit, slack) = (self.line.range, self.limit(), self.line.tolerance);
+        let ([first, _], limit, slack) = (self.line.range, self.limit(), 4.0 * self.line.tolerance);
         if z >= first - slack && z <= limit + slack {
             let z = z.clamp(first, limit);
             self.best = Some(Meeting { root: part.root, at: part.cell.place(at), z });

@@ -169,7 +169,7 @@ impl Visits {
         self.0 += 1;
         if self.0.is_multiple_of(PAUSE) {
             context.check_cancelled()?;
-            context.check_memory(queue.bytes())?;
+            context.check_memory(queue.bytes().saturating_mul(context.threads() as u64))?;
         }
         Ok(self.0 > PATIENCE && self.0.is_multiple_of(STEP))
     }
@@ -267,7 +267,8 @@ impl Search {
     /// the origin's) from the ray are on it. So faces leave no gaps between them, and a ray that is
     /// tangent to the surface meets it, at a place that is uncertain by the square root of that.
     /// Where a ray runs within the surface its first point there is found. A hit is the first but
-    /// for others nearer by less than 10⁻¹¹ of that. Where bounds are proven ([`Search`]) no hit is
+    /// for others nearer by less than 10⁻¹¹ of that; at an angle to the surface below 0.1 radians,
+    /// by 10⁻¹² over the angle, which is how long the ray is on it. Where bounds are proven ([`Search`]) no hit is
     /// missed. The result does not depend on the number of threads.
     ///
     /// # Errors

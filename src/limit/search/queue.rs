@@ -90,11 +90,11 @@ impl Queue {
         Ok(Part { form: std::mem::replace(&mut part.form, Form::Hull(Vec::new())), ..*part })
     }
 
-    /// About how much memory it has.
+    /// About how much memory it has, but for the points of hulls.
     pub(super) fn bytes(&self) -> u64 {
         let Self { heap, made, free, .. } = self;
-        let bytes = heap.capacity() * size_of::<Entry>() + size_of_val(&made[..]);
-        (bytes + size_of_val(&free[..])) as u64
+        let bytes = heap.capacity() * size_of::<Entry>() + made.capacity() * size_of::<Part>();
+        (bytes + free.capacity() * size_of::<u32>()) as u64
     }
 
     /// The smallest bound with its place.

@@ -1,4 +1,4 @@
-//! Samples one after the other, and what the next ones read asked for ahead.
+//! Samples in groups: what they read is asked for ahead, and weights are made for some at once.
 
 use super::cell::{IDENTITY, Kind};
 use super::evaluation::{Scratch, Start, not_finite};
@@ -206,6 +206,7 @@ impl Surface {
                 None => self.remember(way, at, values, scratch).map_err(|e| (i, e))?,
             };
             let memo = &mut scratch.memo;
+            // A folded triangle is a sector, all of whose parts lead to one place.
             let (part, inside) = Kind::part_of(is_triangle, at);
             way.place = if let Some(place) = memo.part(root, part) {
                 place
@@ -229,8 +230,8 @@ impl Surface {
         values: &[[T; WIDTH]],
         scratch: &mut Scratch,
     ) -> Result<u32> {
-        let &Way { corner, node, points, .. } = way;
-        let start = Start { corner, node, points, at, jacobian: IDENTITY.linear };
+        let &Way { corner, node, .. } = way;
+        let start = Start { corner, node, at, jacobian: IDENTITY.linear };
         let cell = self.cell(&start, values.as_flattened(), WIDTH);
         self.patches().root(&cell, &start, scratch)
     }
@@ -271,7 +272,6 @@ impl Surface {
     }
 
     /// Evaluates a sample anywhere.
-    #[cold]
     fn any<T: Scalar>(
         &self,
         start: &Start,

@@ -32,16 +32,9 @@ pub(super) struct Start {
     /// That of the first cell.
     pub(super) corner: u32,
     pub(super) node: u32,
-    /// Where the cell's control vertices begin.
-    pub(super) points: u32,
     pub(super) at: [f64; 2],
     /// Derivatives of cell coordinates by those asked for.
     pub(super) jacobian: [[f64; 2]; 2],
-}
-
-impl Start {
-    pub(super) const NOWHERE: Self =
-        Self { corner: 0, node: 0, points: 0, at: [0.0; 2], jacobian: IDENTITY.linear };
 }
 
 /// The first cell of a corner: its control vertices, and values of all control vertices.

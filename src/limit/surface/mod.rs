@@ -420,16 +420,6 @@ impl Surface {
 
     /// Where the evaluation of a sample starts.
     fn start(&self, sample: &Sample) -> Result<Start> {
-        let mut start = Start::NOWHERE;
-        self.place(sample, &mut start)?;
-        let root = self.roots[start.corner as usize];
-        (start.node, start.points) = (root.node, root.start);
-        Ok(start)
-    }
-
-    /// The same, but for the node and its points.
-    #[inline(always)]
-    fn place(&self, sample: &Sample, start: &mut Start) -> Result<()> {
         let (corner, sectors) = self.corner(sample, self.mesh.faces())?;
         let at = [sample.u, sample.v];
         let (corner, at, map) = match self.method {
@@ -439,8 +429,8 @@ impl Surface {
             }
             _ => (corner, at, cell::IDENTITY),
         };
-        (start.corner, start.at, start.jacobian) = (corner, at, map.linear);
-        Ok(())
+        let root = self.roots[corner as usize];
+        Ok(Start { corner, node: root.node, at, jacobian: map.linear })
     }
 
     /// The corner of a sample's sector, and how many sectors its face has. The number of faces is
